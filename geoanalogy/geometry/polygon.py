@@ -1,0 +1,268 @@
+"""Labelled polygons: the shapes of an arrangement (section 4.2)."""
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import InputError
+from ..tolerances import LARGEST_COORDINATE, ZERO_LENGTH
+
+
+def signed_area(ring: NDArray[np.float64]) -> float:
+    """Area of a ring, positive where it runs counter-clockwise.
+
+    Parameters
+    ----------
+    ring : ndarray of shape (n, 2)
+        Vertices without a repeated last one, scene units.
+
+    Returns
+    -------
+    float
+        Signed area in squared scene units.
+
+    Examples
+    --------
+    >>> signed_area(np.array([(0, 0), (2, 0), (2, 1), (0, 1)], float))
+    2.0
+    """
+    x, y = (ring - ring[0]).T  # near the origin: no cancellation at large coordinates
+    return float(0.5 * (np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))))
+
+
+def clean_ring(points: ArrayLike, name: str) -> tuple[NDArray[np.float64], NDArray[np.intp], bool]:
+    """A ring in canonical form: distinct neighbours, counter-clockwise, last vertex not repeated.
+
+    Parameters
+    ----------
+    points : array_like of shape (n, 2)
+        Vertices in either direction, scene units; the first may be repeated at the end.
+    name : str
+        What the ring is called in messages.
+
+    Returns
+    -------
+    ring : ndarray of shape (m, 2), float64
+        Counter-clockwise vertices.
+    kept : ndarray of shape (m,), int
+        Index in `points` of every vertex that was kept, in the order of `ring`.
+    turned : bool
+        Whether the ring was given clockwise.
+
+    Raises
+    ------
+    InputError
+        For anything that is no simple ring with an area.
+    """
+    try:
+        ring = np.asarray(points, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} has coordinates that are not numbers; give an array of x, y pairs") from None
+    if ring.ndim != 2 or ring.shape[1] != 2:
+        raise InputError(f"{name} has an array of shape {ring.shape}; give vertices as an array of shape (n, 2)")
+    if not np.isfinite(ring).all():
+        raise InputError(f"{name} has a coordinate that is not finite (NaN or infinity); correct or delete that vertex")
+    if np.abs(ring).max(initial=0.0) > LARGEST_COORDINATE:
+        raise InputError(
+            f"{name} lies more than {LARGEST_COORDINATE:g} units from the origin; move the scene near the origin"
+        )
+    extent = float(np.ptp(ring, axis=0).max()) if len(ring) else 0.0
+    kept = np.arange(len(ring))
+    while len(kept) > 1:
+        gaps = np.abs(ring[kept] - np.roll(ring[kept], -1, axis=0)).max(axis=1)
+        short = np.flatnonzero(gaps <= ZERO_LENGTH * extent)
+        if not len(short):
+            break
+        kept = np.delete(kept, (short[0] + 1) % len(kept))
+    if len(kept) < 3:
+        raise InputError(f"{name} has {len(kept)} distinct vertices; a polygon needs at least three")
+    ring = ring[kept]
+    area = signed_area(ring)
+    if abs(area) <= ZERO_LENGTH * extent * extent:
+        raise InputError(f"{name} has no area; give a ring that encloses one")
+    outline = shapely.Polygon(ring - ring[0])
+    if not outline.is_valid:
+        where = shapely.is_valid_reason(outline).partition("[")
+        x, y = (float(v) for v in where[2].rstrip("]").split()) if where[2] else (0.0, 0.0)
+        place = f"x {x + ring[0, 0]:.6g}, y {y + ring[0, 1]:.6g}"
+        raise InputError(f"{name} crosses or touches itself near {place}; redraw it as a simple ring")
+    if area > 0:
+        return ring, kept, False
+    return ring[::-1].copy(), kept[::-1].copy(), True
+
+
+class Polygon:
+    """A labelled polygon of a scene.
+
+    Parameters
+    ----------
+    points : array_like of shape (n, 2)
+        Outline in scene units, in either direction, with or without a repeated last vertex.
+    label : str
+        What kind of thing it is ("bedroom", "bed"); only polygons of equal label are matched (section 4.8).
+    id : str, optional
+        Name in its scene; a scene names the polygons that have none.
+    holes : sequence of array_like of shape (m, 2)
+        Rings inside the outline that do not belong to it.
+    parent : str, optional
+        Id of the parent; None: found by containment.
+    orientation : float, optional
+        Direction of the polygon's x axis in radians, counter-clockwise from the scene's; None: derived (section 5.6).
+    segment_labels : sequence of str, optional
+        A label per edge of `points` as given (edge i runs from vertex i to vertex i + 1), such as the wall that has
+        the door.
+
+    Attributes
+    ----------
+    points : ndarray of shape (n, 2), float64
+        Counter-clockwise outline without a repeated last vertex; read-only.
+    holes : tuple of ndarray
+        Clockwise rings; the polygon's interior is on their left as well.
+    segment_labels : tuple of str
+        A label per edge of `points`, "" where none was given.
+
+    Raises
+    ------
+    InputError
+        For fewer than three distinct vertices, coordinates that are not finite or huge, self-crossings, no area, holes
+        outside the outline, or a number of segment labels that is not the number of edges.
+
+    Examples
+    --------
+    >>> room = Polygon([(0, 0), (0, 3), (4, 3), (4, 0)], label="bedroom")
+    >>> room.area, room.points.tolist()
+    (12.0, [[4.0, 0.0], [4.0, 3.0], [0.0, 3.0], [0.0, 0.0]])
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        label: str = "",
+        id: str | None = None,
+        holes: Sequence[ArrayLike] = (),
+        parent: str | None = None,
+        orientation: float | None = None,
+        segment_labels: Sequence[str] | None = None,
+    ) -> None:
+        self.label = str(label or "")
+        self.id = None if id is None else str(id)
+        self.parent = None if parent is None else str(parent)
+        name = f"polygon {self.id!r}" if self.id is not None else f"a polygon labelled {self.label!r}"
+        if orientation is not None and not np.isfinite(orientation):
+            raise InputError(f"{name} has an orientation that is not finite; give radians or leave it out")
+        self.orientation = None if orientation is None else float(orientation)
+        given = np.asarray(points, dtype=object)
+        closed = len(given) > 1 and np.array_equal(given[0], given[-1])
+        self.points, kept, turned = clean_ring(points, name)
+        self.points.flags.writeable = False
+        self.segment_labels = self._edge_labels(segment_labels, len(given) - closed, kept, turned, name)
+        self.holes = tuple(clean_ring(h, f"hole {i} of {name}")[0][::-1] for i, h in enumerate(holes))
+        if self.holes and not self.shape.is_valid:
+            raise InputError(
+                f"{name} has a hole that leaves its outline or meets another hole; move or delete that hole"
+            )
+        for hole in self.holes:
+            hole.flags.writeable = False
+
+    def _edge_labels(
+        self, labels: Sequence[str] | None, edges: int, kept: NDArray[np.intp], turned: bool, name: str
+    ) -> tuple[str, ...]:
+        if labels is None:
+            return ("",) * len(self.points)
+        if len(labels) not in (edges, edges + 1):
+            raise InputError(f"{name} has {len(labels)} segment labels for {edges} edges; give one per edge")
+        per_vertex = [str(labels[i % edges] or "") for i in kept]
+        # Turned round, the edge after a vertex is the one that came before it.
+        return tuple(per_vertex[1:] + per_vertex[:1]) if turned else tuple(per_vertex)
+
+    def __repr__(self) -> str:
+        return f"Polygon({len(self.points)} vertices, label={self.label!r}, id={self.id!r})"
+
+    @cached_property
+    def shape(self) -> shapely.Polygon:
+        """The polygon as a shapely geometry."""
+        return shapely.Polygon(self.points, self.holes)
+
+    @property
+    def rings(self) -> tuple[NDArray[np.float64], ...]:
+        """The outline, then the holes; the interior is always on the left."""
+        return (self.points, *self.holes)
+
+    @cached_property
+    def area(self) -> float:
+        """Area in squared scene units, without the holes."""
+        return abs(signed_area(self.points)) - sum(abs(signed_area(h)) for h in self.holes)
+
+    @cached_property
+    def centroid(self) -> NDArray[np.float64]:
+        """Centre of area, shape (2,)."""
+        return shapely.get_coordinates(self.shape.centroid)[0]
+
+    @cached_property
+    def bounds(self) -> NDArray[np.float64]:
+        """Smallest and largest x and y: (x0, y0, x1, y1)."""
+        return np.hstack([self.points.min(axis=0), self.points.max(axis=0)])
+
+    @cached_property
+    def size(self) -> float:
+        """The side of a square of equal area, in scene units: what lengths in the polygon are compared with."""
+        return float(np.sqrt(self.area))
+
+    @cached_property
+    def inscribed_radius(self) -> float:
+        """Radius of the largest circle inside (the n of section 4.4 for a pose inside)."""
+        return float(shapely.length(shapely.maximum_inscribed_circle(self.shape, tolerance=0.002 * self.size)))
+
+    @cached_property
+    def enclosing_radius(self) -> float:
+        """Radius of the smallest circle around (half the n of section 4.4 for a pose outside)."""
+        return float(shapely.minimum_bounding_radius(self.shape))
+
+    @cached_property
+    def main_orientation(self) -> float:
+        """Direction of the polygon's x axis, in radians (section 5.6).
+
+        The one given; else the direction in which most of the outline's length runs, directions being taken modulo 90
+        degrees, and of its four quarter turns the one nearest to the scene's x axis. A ring without any preferred
+        direction (a circle) keeps the scene's.
+        """
+        if self.orientation is not None:
+            return self.orientation
+        edges = np.roll(self.points, -1, axis=0) - self.points
+        lengths = np.hypot(*edges.T)
+        angles = np.arctan2(edges[:, 1], edges[:, 0]) % (np.pi / 2)
+        # Twice two turns make a quarter turn one full turn, where lengths add up as vectors; the mean is then
+        # sharpened on the edges that agree with it, so that a bevelled corner does not tilt a rectangular room.
+        total = np.sum(lengths * np.exp(4j * angles))
+        if abs(total) < 0.05 * lengths.sum():
+            return 0.0
+        mean = np.angle(total) / 4
+        for width in (np.pi / 8, np.pi / 24):
+            off = (angles - mean + np.pi / 4) % (np.pi / 2) - np.pi / 4
+            near = np.abs(off) <= width
+            if near.any():
+                mean += np.average(off[near], weights=lengths[near])
+        return float((mean + np.pi / 4) % (np.pi / 2) - np.pi / 4)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data, as it is written to JSON.
+
+        Returns
+        -------
+        dict
+            Arguments for `Polygon`; what has its default is left out.
+        """
+        plain: dict[str, Any] = {"points": self.points.tolist(), "label": self.label, "id": self.id}
+        if self.holes:
+            plain["holes"] = [h.tolist() for h in self.holes]
+        if self.parent is not None:
+            plain["parent"] = self.parent
+        if self.orientation is not None:
+            plain["orientation"] = self.orientation
+        if any(self.segment_labels):
+            plain["segment_labels"] = list(self.segment_labels)
+        return plain

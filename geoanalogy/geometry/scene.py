@@ -1,0 +1,186 @@
+"""Scenes: arrangements of labelled polygons with a hierarchy (sections 4.2 and 4.8)."""
+
+from collections.abc import Iterable, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import InputError
+from .hierarchy import find_parents
+from .polygon import Polygon
+
+
+class Scene:
+    """A set of labelled polygons and their hierarchy. Never changed: edits make a new scene.
+
+    Parameters
+    ----------
+    polygons : iterable of Polygon
+        Those without an id are given one that is free ("polygon 3").
+
+    Attributes
+    ----------
+    polygons : tuple of Polygon
+
+    Raises
+    ------
+    InputError
+        For ids that occur twice, stated parents that are not there, or circles of parents.
+
+    Examples
+    --------
+    >>> scene = Scene([
+    ...     Polygon([(0, 0), (4, 0), (4, 3), (0, 3)], label="bedroom", id="r1"),
+    ...     Polygon([(0, 0), (2, 0), (2, 1), (0, 1)], label="bed", id="b1"),
+    ... ])
+    >>> scene.parent_of((1, 0.5)).id, [p.id for p in scene.members_of("r1")]
+    ('b1', ['b1'])
+    """
+
+    def __init__(self, polygons: Iterable[Polygon]) -> None:
+        self.polygons: tuple[Polygon, ...] = tuple(polygons)
+        taken = {p.id for p in self.polygons if p.id is not None}
+        number = 0
+        for p in self.polygons:
+            if not isinstance(p, Polygon):
+                raise InputError(
+                    f"a scene is made of polygons, not of {type(p).__name__}; wrap the ring in Polygon(points, label=…)"
+                )
+            if p.id is None:
+                while f"polygon {number}" in taken:
+                    number += 1
+                p.id = f"polygon {number}"
+                taken.add(p.id)
+        self._index: dict[str, int] = {}
+        for i, p in enumerate(self.polygons):
+            if self._index.setdefault(str(p.id), i) != i:
+                raise InputError(f"the id {p.id!r} occurs twice in the scene; give every polygon an id of its own")
+
+    def __repr__(self) -> str:
+        return f"Scene({len(self.polygons)} polygons)"
+
+    def __len__(self) -> int:
+        return len(self.polygons)
+
+    @cached_property
+    def _hierarchy(self) -> tuple[NDArray[np.intp], list[list[int]]]:
+        return find_parents(self.polygons)
+
+    @cached_property
+    def _tree(self) -> shapely.STRtree:
+        return shapely.STRtree([p.shape for p in self.polygons])
+
+    def polygon(self, id: str) -> Polygon:
+        """The polygon of an id.
+
+        Parameters
+        ----------
+        id : str
+
+        Returns
+        -------
+        Polygon
+
+        Raises
+        ------
+        InputError
+            Where the scene has none of that id.
+        """
+        if id not in self._index:
+            raise InputError(f"the scene has no polygon {id!r}; it has {len(self.polygons)} polygons, check the id")
+        return self.polygons[self._index[id]]
+
+    def parent(self, id: str) -> Polygon | None:
+        """The parent of a polygon, None at the top.
+
+        Parameters
+        ----------
+        id : str
+
+        Returns
+        -------
+        Polygon or None
+        """
+        i = self._hierarchy[0][self._index[str(self.polygon(id).id)]]
+        return None if i < 0 else self.polygons[i]
+
+    def members_of(self, id: str) -> list[Polygon]:
+        """The children of a polygon and what straddles its boundary, in the scene's order.
+
+        Parameters
+        ----------
+        id : str
+
+        Returns
+        -------
+        list of Polygon
+        """
+        return [self.polygons[i] for i in self._hierarchy[1][self._index[str(self.polygon(id).id)]]]
+
+    def parent_of(self, point: ArrayLike) -> Polygon | None:
+        """The smallest polygon that contains a point; its boundary counts as inside.
+
+        Parameters
+        ----------
+        point : array_like of shape (2,)
+
+        Returns
+        -------
+        Polygon or None
+        """
+        return self._smallest(self._tree.query(shapely.Point(np.asarray(point, float)), predicate="intersects"))
+
+    def parent_of_shape(self, ring: ArrayLike, share: float) -> Polygon | None:
+        """The smallest polygon that holds a share of a ring's area: the parent of an object by its footprint.
+
+        Parameters
+        ----------
+        ring : array_like of shape (n, 2)
+            Outline in scene coordinates.
+        share : float
+            Between 0 and 1.
+
+        Returns
+        -------
+        Polygon or None
+        """
+        shape = shapely.Polygon(np.asarray(ring, float))
+        near = self._tree.query(shape)
+        held = shapely.area(shapely.intersection(np.array([self.polygons[i].shape for i in near], dtype=object), shape))
+        return self._smallest(near[held >= share * shape.area])
+
+    def _smallest(self, indices: NDArray[np.intp]) -> Polygon | None:
+        return min((self.polygons[i] for i in np.sort(indices)), key=lambda p: p.area, default=None)
+
+    def with_polygons(self, polygons: Sequence[Polygon]) -> "Scene":
+        """A new scene with more polygons.
+
+        Parameters
+        ----------
+        polygons : sequence of Polygon
+
+        Returns
+        -------
+        Scene
+        """
+        return Scene([*self.polygons, *polygons])
+
+    @cached_property
+    def bounds(self) -> NDArray[np.float64]:
+        """Smallest and largest x and y of all polygons: (x0, y0, x1, y1)."""
+        if not self.polygons:
+            raise InputError("the scene is empty; add polygons first")
+        every = np.array([p.bounds for p in self.polygons])
+        return np.hstack([every[:, :2].min(axis=0), every[:, 2:].max(axis=0)])
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data, as it is written to JSON.
+
+        Returns
+        -------
+        dict
+        """
+        return {"polygons": [p.to_dict() for p in self.polygons]}

@@ -1,0 +1,136 @@
+"""What points see of elements: nearest places, distances and directions, evaluated once and shared by all relations."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from .elements import Elements
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Nearest:
+    """The boundary place nearest to each point, per segment or polygon.
+
+    Attributes
+    ----------
+    distance : ndarray of shape (elements, points)
+        In scene units, not negative.
+    arc : ndarray of shape (elements, points)
+        Arc length from the start of the segment (or of the ring) to the place.
+    tangent : ndarray of shape (elements, points)
+        Direction of the boundary there, radians.
+    between : ndarray of shape (elements, points), bool
+        Whether the place lies inside an edge, where moving the point along the boundary moves the place as far; at a
+        vertex it stays.
+    """
+
+    distance: Array
+    arc: Array
+    tangent: Array
+    between: NDArray[np.bool_]
+
+
+class Observation:
+    """The elements of an arrangement as seen from points.
+
+    Parameters
+    ----------
+    elements : Elements
+    points : ndarray of shape (n, 2)
+        Scene coordinates.
+    """
+
+    def __init__(self, elements: Elements, points: Array) -> None:
+        self.elements = elements
+        self.points = points
+
+    @cached_property
+    def _edges(self) -> tuple[Array, Array]:
+        """Position along each edge (0 to its length) nearest to each point, and the distance; both (edges, points)."""
+        e = self.elements
+        direction = e.edge_vector / e.edge_length[:, None]
+        x = self.points[:, 0] - e.edge_start[:, :1]
+        y = self.points[:, 1] - e.edge_start[:, 1:]
+        along = np.clip(x * direction[:, :1] + y * direction[:, 1:], 0.0, e.edge_length[:, None])
+        x -= along * direction[:, :1]
+        y -= along * direction[:, 1:]
+        return along, np.hypot(x, y)
+
+    def _nearest(self, group: NDArray[np.intp], count: int, offset: Array) -> Nearest:
+        along, distance = self._edges
+        e = self.elements
+        n = len(self.points)
+        if not count:
+            empty = np.zeros((0, n))
+            return Nearest(empty, empty, empty, empty.astype(bool))
+        if len(group) == count:  # one edge each: straight segments
+            best = np.broadcast_to(np.arange(count)[:, None], (count, n))
+        else:
+            first = np.searchsorted(group, np.arange(count))
+            best = np.empty((count, n), dtype=np.intp)
+            last = np.append(first[1:], len(group))
+            for k in range(count):
+                best[k] = first[k] + np.argmin(distance[first[k] : last[k]], axis=0)
+        column = np.arange(n)
+        place = along[best, column]
+        return Nearest(
+            distance[best, column],
+            place + offset[best],
+            np.arctan2(e.edge_vector[:, 1], e.edge_vector[:, 0])[best],
+            (place > 0) & (place < e.edge_length[best]),
+        )
+
+    @cached_property
+    def segment(self) -> Nearest:
+        """Nearest place on each segment; arcs from the segment's start."""
+        e = self.elements
+        return self._nearest(e.edge_segment, len(e.segment_length), e.edge_offset)
+
+    @cached_property
+    def boundary(self) -> Nearest:
+        """Nearest place on each polygon's boundary; arcs from its ring's first vertex."""
+        e = self.elements
+        return self._nearest(e.edge_polygon, len(e.polygons), e.edge_ring_offset)
+
+    @cached_property
+    def inside(self) -> NDArray[np.bool_]:
+        """Whether each polygon contains each point, boundary included; shape (polygons, points)."""
+        x, y = self.points.T
+        return np.array([shapely.intersects_xy(p.shape, x, y) for p in self.elements.polygons]).reshape(
+            -1, len(self.points)
+        )
+
+    @cached_property
+    def corner(self) -> tuple[Array, Array]:
+        """Distance and direction (radians) from each corner to each point; both (corners, points)."""
+        v = self.elements.corner_vertex
+        x = self.points[:, 0] - v[:, :1]
+        y = self.points[:, 1] - v[:, 1:]
+        return np.hypot(x, y), np.arctan2(y, x)
+
+    @cached_property
+    def centroid(self) -> tuple[Array, Array]:
+        """Distance and direction (radians) from each point to each polygon's centroid; both (polygons, points)."""
+        c = np.array([p.centroid for p in self.elements.polygons]).reshape(-1, 2)
+        x = c[:, :1] - self.points[:, 0]
+        y = c[:, 1:] - self.points[:, 1]
+        return np.hypot(x, y), np.arctan2(y, x)
+
+    @cached_property
+    def box(self) -> tuple[Array, Array, Array]:
+        """The points in the elements' frame, (2, n), and each polygon's least and greatest coordinates there, (p, 2)."""
+        c, s = np.cos(self.elements.frame), np.sin(self.elements.frame)
+        turn = np.array([[c, s], [-s, c]])
+        rings = [turn @ p.points.T for p in self.elements.polygons]
+        low = np.array([r.min(axis=1) for r in rings]).reshape(-1, 2)
+        high = np.array([r.max(axis=1) for r in rings]).reshape(-1, 2)
+        return turn @ self.points.T, low, high
+
+
+Field = Callable[[Observation], tuple[Array, Array]]
