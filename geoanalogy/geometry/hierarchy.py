@@ -11,7 +11,7 @@ from ..tolerances import CONTAINED_SHARE, STRADDLING_SHARE
 from .polygon import Polygon
 
 
-def find_parents(polygons: Sequence[Polygon]) -> tuple[NDArray[np.intp], list[list[int]]]:
+def find_parents(polygons: Sequence[Polygon], ids: Sequence[str | None]) -> tuple[NDArray[np.intp], list[list[int]]]:
     """The parent of every polygon, and the members of every polygon.
 
     The parent is the one a polygon names, else the smallest larger polygon that holds 95 % of its area. Members are the
@@ -22,6 +22,8 @@ def find_parents(polygons: Sequence[Polygon]) -> tuple[NDArray[np.intp], list[li
     Parameters
     ----------
     polygons : sequence of Polygon
+    ids : sequence of str or None
+        The id of each, as children name it; may repeat.
 
     Returns
     -------
@@ -37,15 +39,20 @@ def find_parents(polygons: Sequence[Polygon]) -> tuple[NDArray[np.intp], list[li
     """
     n = len(polygons)
     parents = np.full(n, -1)
-    index = {p.id: i for i, p in enumerate(polygons)}
+    index: dict[str | None, list[int]] = {}
+    for i, name in enumerate(ids):
+        index.setdefault(name, []).append(i)
     for i, p in enumerate(polygons):
         if p.parent is not None:
-            if p.parent not in index:
+            named = [k for k in index.get(p.parent, []) if k != i]
+            if not named:
                 raise InputError(
                     f"polygon {p.id!r} names the parent {p.parent!r}, which is not in the scene; "
                     "add it or leave the parent out"
                 )
-            parents[i] = index[p.parent]
+            # Several of that name: the one that holds most of the child.
+            held = [polygons[k].shape.intersection(p.shape).area for k in named] if len(named) > 1 else [0.0]
+            parents[i] = named[int(np.argmax(held))]
     members: list[set[int]] = [set() for _ in range(n)]
     straddling: list[tuple[int, int]] = []
     free = np.flatnonzero(parents < 0)

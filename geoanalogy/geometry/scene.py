@@ -1,5 +1,6 @@
 """Scenes: arrangements of labelled polygons with a hierarchy (sections 4.2 and 4.8)."""
 
+import copy
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 from typing import Any
@@ -19,7 +20,9 @@ class Scene:
     Parameters
     ----------
     polygons : iterable of Polygon
-        Those without an id are given one that is free ("polygon 3").
+        Those without an id are given one that is free ("polygon 3"). An id that occurs again gets a number, as names
+        do in Blender ("bed", "bed.001"); a parent named by several polygons is the one of them that holds most of the
+        child.
 
     Attributes
     ----------
@@ -28,7 +31,8 @@ class Scene:
     Raises
     ------
     InputError
-        For ids that occur twice, stated parents that are not there, or circles of parents.
+        For anything that is no polygon; when the hierarchy is asked for, stated parents that are not there and circles
+        of parents.
 
     Examples
     --------
@@ -41,23 +45,17 @@ class Scene:
     """
 
     def __init__(self, polygons: Iterable[Polygon]) -> None:
-        self.polygons: tuple[Polygon, ...] = tuple(polygons)
-        taken = {p.id for p in self.polygons if p.id is not None}
-        number = 0
-        for p in self.polygons:
+        given = tuple(polygons)
+        for p in given:
             if not isinstance(p, Polygon):
                 raise InputError(
                     f"a scene is made of polygons, not of {type(p).__name__}; wrap the ring in Polygon(points, label=…)"
                 )
-            if p.id is None:
-                while f"polygon {number}" in taken:
-                    number += 1
-                p.id = f"polygon {number}"
-                taken.add(p.id)
-        self._index: dict[str, int] = {}
-        for i, p in enumerate(self.polygons):
-            if self._index.setdefault(str(p.id), i) != i:
-                raise InputError(f"the id {p.id!r} occurs twice in the scene; give every polygon an id of its own")
+        self.polygons: tuple[Polygon, ...] = _with_unique_ids(given)
+        self._index: dict[str, int] = {str(p.id): i for i, p in enumerate(self.polygons)}
+        # The parents are resolved by the names as they were given: a parent's own new name cannot be known to its
+        # children.
+        self._given_ids = [p.id for p in given]
 
     def __repr__(self) -> str:
         return f"Scene({len(self.polygons)} polygons)"
@@ -67,7 +65,7 @@ class Scene:
 
     @cached_property
     def _hierarchy(self) -> tuple[NDArray[np.intp], list[list[int]]]:
-        return find_parents(self.polygons)
+        return find_parents(self.polygons, self._given_ids)
 
     @cached_property
     def _tree(self) -> shapely.STRtree:
@@ -184,3 +182,26 @@ class Scene:
         dict
         """
         return {"polygons": [p.to_dict() for p in self.polygons]}
+
+
+def _with_unique_ids(polygons: tuple[Polygon, ...]) -> tuple[Polygon, ...]:
+    """The polygons, copied where they need an id of their own."""
+    stated = {p.id for p in polygons if p.id is not None}
+    used: set[str] = set()
+    unnamed = 0
+    result = []
+    for p in polygons:
+        name = p.id
+        if name is None:
+            while (name := f"polygon {unnamed}") in stated | used:
+                unnamed += 1
+        elif name in used:
+            repeat = 1
+            while (name := f"{p.id}.{repeat:03d}") in stated | used:
+                repeat += 1
+        used.add(name)
+        if name != p.id:
+            p = copy.copy(p)
+            p.id = name
+        result.append(p)
+    return tuple(result)
