@@ -134,6 +134,9 @@ class Scene:
     def parent_of_shape(self, ring: ArrayLike, share: float) -> Polygon | None:
         """The smallest polygon that holds a share of a ring's area: the parent of an object by its footprint.
 
+        Where parents are stated, a polygon with a stated parent that is nobody's parent is an object, not a place: a
+        cabinet under a counter top that is stated to be in the kitchen stands in the kitchen.
+
         Parameters
         ----------
         ring : array_like of shape (n, 2)
@@ -148,7 +151,10 @@ class Scene:
         shape = shapely.Polygon(np.asarray(ring, float))
         near = self._tree.query(shape)
         held = shapely.area(shapely.intersection(np.array([self.polygons[i].shape for i in near], dtype=object), shape))
-        return self._smallest(near[held >= share * shape.area])
+        holding = near[held >= share * shape.area]
+        members = self._hierarchy[1]
+        places = [i for i in holding if self.polygons[i].parent is None or members[i]]
+        return self._smallest(np.array(places, dtype=np.intp))
 
     def _smallest(self, indices: NDArray[np.intp]) -> Polygon | None:
         return min((self.polygons[i] for i in np.sort(indices)), key=lambda p: p.area, default=None)
