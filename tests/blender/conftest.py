@@ -1,0 +1,110 @@
+"""The extension as a user gets it: built, installed from its zip, enabled; then one fresh file per test.
+
+Runs with the bpy module, and inside Blender itself through run_in_blender.py. The engine is reached through the
+installed extension only: its top-level twin would be a second copy, with classes of its own.
+"""
+
+import importlib
+import os
+import platform
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+ADDON = "bl_ext.user_default.geoanalogy"
+
+INSIDE_BLENDER = "bpy" in sys.modules
+if INSIDE_BLENDER:
+    USER_FOLDER = None
+else:
+    # Blender reads this once, when it starts: no test may touch the extensions of whoever runs it.
+    USER_FOLDER = tempfile.mkdtemp(prefix="geoanalogy-tests-")
+    os.environ["BLENDER_USER_RESOURCES"] = USER_FOLDER
+
+import bpy  # noqa: E402  # isort: skip
+import addon_utils  # noqa: E402  # bpy puts it on the path
+
+# Without the checkout on the path, nobody imports the top-level engine by mistake.
+sys.path[:] = [entry for entry in sys.path if Path(entry).resolve() != ROOT]
+
+
+def pytest_configure(config):
+    """Take Blender's own warnings as warnings, and refuse to run in a user's own profile."""
+    config.addinivalue_line("filterwarnings", "default")
+    profile = Path(bpy.utils.resource_path("USER")).resolve()
+    if not profile.is_relative_to(Path(tempfile.gettempdir()).resolve()):
+        pytest.exit(f"These tests install an extension: set BLENDER_USER_RESOURCES, {profile} is not temporary.", 2)
+
+
+def pytest_unconfigure():
+    """Leave nothing behind."""
+    if USER_FOLDER:
+        shutil.rmtree(USER_FOLDER, ignore_errors=True)
+
+
+def pytest_report_header():
+    """Name the Blender and the libraries that the tests ran with."""
+    import numpy
+
+    return f"Blender {bpy.app.version_string}, Python {platform.python_version()}, numpy {numpy.__version__}"
+
+
+def build_extension(folder: Path, *arguments: str) -> Path:
+    """Build the zip with the builder of the Blender that runs, and return its path."""
+    builder = Path(bpy.utils.system_resource("SCRIPTS"), "addons_core", "bl_pkg", "cli", "blender_ext.py")
+    script = ROOT / "scripts" / "build_extension.py"
+    subprocess.run(
+        [sys.executable, str(script), "--builder", str(builder), "--output", str(folder), *arguments], check=True
+    )
+    (built,) = folder.glob("*.zip")
+    return built
+
+
+def policy_warnings() -> dict:
+    """What Blender holds against the installed extensions; empty where all is well."""
+    return dict(addon_utils._extensions_warnings_get())
+
+
+@pytest.fixture(scope="session")
+def extension_zip(tmp_path_factory):
+    """The zip without wheels: this Python has scipy and shapely already."""
+    return build_extension(tmp_path_factory.mktemp("extension"), "--without-wheels")
+
+
+@pytest.fixture(scope="session")
+def installed(extension_zip):
+    """The name of the add-on, installed from its zip and enabled."""
+    bpy.ops.extensions.package_install_files(
+        filepath=str(extension_zip), repo="user_default", enable_on_install=True, overwrite=True
+    )
+    assert ADDON in bpy.context.preferences.addons, "the extension was not enabled: see the output above"
+    return ADDON
+
+
+@pytest.fixture(autouse=True)
+def fresh_file(installed):
+    """An empty file for each test, and afterwards a clean conscience towards Blender's extension policies.
+
+    `read_factory_settings` would disable the add-on.
+    """
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    yield
+    assert policy_warnings() == {}
+    assert "geoanalogy" not in sys.modules
+
+
+@pytest.fixture
+def addon(installed):
+    """The add-on's root module."""
+    return sys.modules[installed]
+
+
+@pytest.fixture
+def engine(addon):
+    """The engine package inside the installed extension, the only copy that a test may use."""
+    return importlib.import_module(f"{addon.__name__}.geoanalogy")
