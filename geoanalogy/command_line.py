@@ -1,0 +1,261 @@
+"""The batch program: its commands, its progress lines and its exit codes.
+
+The same program is reached in four ways: ``blender -b FILE.blend --python batch.py -- COMMAND``, ``python batch.py
+COMMAND`` with the bpy module, ``geoanalogy COMMAND`` where pip installed the engine, and ``blender -b --command
+geoanalogy COMMAND`` where the add-on is enabled. Commands that work on a .blend import `geoanalogy.blender` when they
+run, so that the others need no Blender.
+"""
+
+import argparse
+import enum
+import os
+import signal
+import sys
+import threading
+import traceback
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any, NoReturn
+
+from .errors import Cancelled, InputError
+
+
+class ExitCode(enum.IntEnum):
+    """What the program's exit status means; a farm may rely on it."""
+
+    DONE = 0
+    INTERNAL_ERROR = 1
+    USAGE = 2
+    BAD_INPUT = 3
+    CANCELLED = 4
+    WRITE_FAILED = 5
+
+
+# What to do about a module that is missing.
+REMEDIES = {
+    "bpy": "install the bpy module (pip install 'geoanalogy[bpy]') or run batch.py inside Blender",
+    "numpy": "install it (pip install numpy)",
+    "scipy": "enable the GeoAnalogy extension, which brings it, or install it (pip install scipy)",
+    "shapely": "enable the GeoAnalogy extension, which brings it, or install it (pip install shapely)",
+}
+
+
+class ProgressLines:
+    """Progress as lines on the error stream, and the place where a cancellation is asked for.
+
+    Attributes
+    ----------
+    cancelled : bool
+        Set by a signal; the next report stops the work between two of its steps.
+    """
+
+    def __init__(self, quiet: bool = False) -> None:
+        self.cancelled = False
+        self._quiet = quiet
+        self._last = ""
+
+    def __call__(self, fraction: float, text: str) -> bool:
+        """Report a step; False asks the caller to stop."""
+        line = f"[{round(100 * min(max(fraction, 0.0), 1.0)):3d}%] {text}"
+        if not self._quiet and line != self._last:
+            print(line, file=sys.stderr, flush=True)
+            self._last = line
+        return not self.cancelled
+
+
+@contextmanager
+def _signals_cancel(progress: ProgressLines) -> Iterator[None]:
+    """Let Ctrl-C and the farm's SIGTERM ask for a cancellation; a second one insists.
+
+    Blender replaces Python's own handler by one of its own in background mode, which no Python code sees.
+    """
+
+    def ask(number: int, frame: object) -> None:
+        if progress.cancelled:
+            raise KeyboardInterrupt
+        progress.cancelled = True
+
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = {number: signal.signal(number, ask) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler if handler is not None else signal.SIG_DFL)
+
+
+def _path_with_suffix(suffix: str) -> Callable[[str], Path]:
+    def convert(text: str) -> Path:
+        path = Path(text)
+        if path.suffix.lower() != suffix:
+            raise argparse.ArgumentTypeError(f"{text} should end in {suffix}")
+        return path.absolute()
+
+    return convert
+
+
+def _fraction(text: str) -> float:
+    value = float(text)
+    if not 0.0 <= value <= 1.0:
+        raise argparse.ArgumentTypeError(f"{text} should lie between 0 and 1")
+    return value
+
+
+def _check_writable(paths: Sequence[Path]) -> None:
+    """Find out before the long work, not after it, that a result has nowhere to go."""
+    for path in paths:
+        if not path.parent.is_dir():
+            raise OSError(f"cannot write {path}: its folder does not exist.")
+        if path.is_dir() or not os.access(path if path.exists() else path.parent, os.W_OK):
+            raise OSError(f"cannot write {path}: it may not be written.")
+
+
+def _last_written(path: Path) -> int | None:
+    return path.stat().st_mtime_ns if path.is_file() and path.stat().st_size else None
+
+
+def _replay(arguments: argparse.Namespace, progress: ProgressLines) -> str:
+    results = [path for path in (arguments.output, arguments.render) if path is not None]
+    if not results:
+        raise argparse.ArgumentTypeError("replay needs --output, --render or both: it would do nothing")
+    _check_writable(results)
+    from .blender.replay import replay_file
+
+    before = [_last_written(path) for path in results]
+    report = replay_file(
+        arguments.file,
+        output=arguments.output,
+        render=arguments.render,
+        seed=arguments.seed,
+        threshold=arguments.threshold,
+        progress=progress,
+    )
+    for path, written in zip(results, before, strict=True):
+        # Blender reports some failed writes on its console only.
+        if _last_written(path) in (None, written):
+            raise OSError(f"cannot write {path}: Blender left no file there.")
+    made = f"{report.operations} operations replayed, {report.objects} objects made"
+    return "\n".join([made, *(f"wrote {path}" for path in results)])
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """The program's command-line parser.
+
+    Returns
+    -------
+    argparse.ArgumentParser
+        With one sub-command per job; each sets `run`, a function of the arguments and the progress lines that returns
+        what to print.
+    """
+    try:
+        release = version("geoanalogy")
+    except PackageNotFoundError:
+        release = "(not installed: run from its folder)"
+    codes = ", ".join(f"{code.value} {code.name.lower().replace('_', ' ')}" for code in ExitCode)
+    parser = argparse.ArgumentParser(
+        prog="geoanalogy", description="Edit propagation by geometric analogy.", epilog=f"Exit codes: {codes}."
+    )
+    parser.add_argument("--version", action="version", version=f"GeoAnalogy {release}")
+    parser.add_argument("--quiet", action="store_true", help="no progress lines")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    replay = commands.add_parser("replay", help="replay the operations of a .blend from its examples")
+    blend = _path_with_suffix(".blend")
+    replay.add_argument("file", nargs="?", type=blend, metavar="FILE.blend", help="the scene (the open file)")
+    replay.add_argument("--output", type=blend, metavar="OUT.blend", help="write the replayed scene here")
+    replay.add_argument("--render", type=_path_with_suffix(".png"), metavar="OUT.png", help="draw a picture of it here")
+    replay.add_argument("--seed", type=int, metavar="N", help="seed of the operations that draw lots (their own)")
+    replay.add_argument("--threshold", type=_fraction, metavar="T", help="least importance of a result (their own)")
+    replay.set_defaults(run=_replay)
+    return parser
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        The command and its options; those of the process where None.
+
+    Returns
+    -------
+    int
+        An `ExitCode`. No exception leaves this function: Blender's background mode would end with status 0 after one.
+    """
+    parser = build_parser()
+    try:
+        parsed = parser.parse_args(arguments)
+    except SystemExit as request:
+        return request.code if isinstance(request.code, int) else ExitCode.USAGE
+    run: Callable[[Any, ProgressLines], str] = parsed.run
+    progress = ProgressLines(parsed.quiet)
+    try:
+        with _signals_cancel(progress):
+            print(run(parsed, progress), flush=True)
+        return ExitCode.DONE
+    except argparse.ArgumentTypeError as error:
+        return _failed(ExitCode.USAGE, error)
+    except InputError as error:
+        return _failed(ExitCode.BAD_INPUT, error)
+    except ModuleNotFoundError as error:
+        if error.name not in REMEDIES:
+            traceback.print_exc()
+            return ExitCode.INTERNAL_ERROR
+        return _failed(ExitCode.BAD_INPUT, missing_module(error))
+    except (Cancelled, KeyboardInterrupt):
+        return _failed(ExitCode.CANCELLED, "cancelled; nothing was written")
+    except OSError as error:
+        return _failed(ExitCode.WRITE_FAILED, error)
+    except Exception:
+        traceback.print_exc()
+        return _failed(ExitCode.INTERNAL_ERROR, "internal error, see above; please report it")
+
+
+def missing_module(error: ModuleNotFoundError) -> str:
+    """One sentence about a library that is not there, with what to do.
+
+    Parameters
+    ----------
+    error : ModuleNotFoundError
+        As raised by the import.
+
+    Returns
+    -------
+    str
+        The sentence.
+    """
+    return f"the module {error.name} is missing: {REMEDIES.get(str(error.name), 'install it')}."
+
+
+def _failed(code: ExitCode, reason: object) -> int:
+    print(f"geoanalogy: {reason}", file=sys.stderr, flush=True)
+    return code
+
+
+def leave(code: int) -> NoReturn:
+    """End the process with this code.
+
+    The bpy module may crash while Python shuts down, after all work is done, and would replace the code by the
+    crash's; so Python does not shut down there. A complete Blender ends as always.
+
+    Parameters
+    ----------
+    code : int
+        What `main` returned.
+    """
+    sys.stdout.flush()
+    sys.stderr.flush()
+    blender: Any = sys.modules.get("bpy")
+    if blender is not None and blender.app.module:
+        os._exit(code)
+    sys.exit(code)
+
+
+def run() -> NoReturn:
+    """The console script: run a command, and end the process with its code."""
+    leave(main())
