@@ -12,7 +12,7 @@ from pathlib import Path
 import addon_utils
 import bpy
 import pytest
-from conftest import ADDON, INSIDE_BLENDER, ROOT, build_extension, policy_warnings
+from conftest import ADDON, INSIDE_BLENDER, ROOT, build_extension, engine_twins, policy_warnings
 
 sys.path.append(str(ROOT / "scripts"))
 import wheel_grid
@@ -53,7 +53,7 @@ def test_the_manifest_passes_without_a_warning(extension_zip):
 def test_it_is_enabled_without_a_policy_warning(addon):
     assert addon_utils.check(ADDON) == (True, True)
     assert policy_warnings() == {}
-    assert "geoanalogy" not in sys.modules
+    assert engine_twins() == []
 
 
 def test_it_can_be_disabled_and_enabled_again(installed):
