@@ -35,8 +35,8 @@ demo: $(READY)
 test: $(READY)
 	@failed=; \
 	$(PY) -m pytest tests/house tests/engine -n $(JOBS) --dist loadfile || failed=1; \
-	$(PY) scripts/test_in_blender.py || failed=1; \
-	test -z "$(BLENDER)" || $(PY) scripts/test_in_blender.py --blender "$(BLENDER)" || failed=1; \
+	$(PY) scripts/run_blender_tests.py || failed=1; \
+	test -z "$(BLENDER)" || $(PY) scripts/run_blender_tests.py --blender "$(BLENDER)" || failed=1; \
 	test -z "$$failed"
 
 lint: $(READY)

@@ -1,7 +1,7 @@
 """Run tests/blender with the bpy module, or inside the Blender given, and judge it by pytest's report.
 
-    python scripts/test_in_blender.py                   with the bpy module of this Python
-    python scripts/test_in_blender.py --blender PATH    inside that Blender
+    python scripts/run_blender_tests.py                   with the bpy module of this Python
+    python scripts/run_blender_tests.py --blender PATH    inside that Blender
 
 The bpy module may crash while Python shuts down, after the last test has passed: then the exit status says nothing, and
 the report, which pytest writes when all is done, says everything. No report, no success.
