@@ -22,7 +22,7 @@ help:
 	@sed -n 's/^# make/make/p' Makefile
 
 $(READY): pyproject.toml scripts/find_python scripts/list_requirements.py
-	@python=$$(scripts/find_python) && rm -rf .venv && "$$python" -m venv .venv
+	@python=$$(scripts/find_python) && "$$python" -m venv .venv
 	$(PY) scripts/list_requirements.py dev bpy benchmarks > .venv/requirements.txt
 	$(PY) -m pip install --quiet --requirement .venv/requirements.txt
 	@touch $(READY)

@@ -5,7 +5,7 @@ Its modules are imported by `register()`, so that reading this file asks for no 
 
 from .registration import register_in_order, unregister_in_order
 
-MODULES: tuple[str, ...] = ()
+MODULES = (".command",)
 
 
 def register():
