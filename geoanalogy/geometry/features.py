@@ -16,13 +16,19 @@ class Segment:
     Attributes
     ----------
     vertices : ndarray of shape (n, 2), n >= 2
-        In the boundary's direction, the interior on the left; a closed smooth ring repeats its first vertex.
+        In the boundary's direction, the interior on the left.
     label : str
         The label of its edges ("" where they have none).
+    closed : bool
+        Whether it is a whole ring without a corner; its last vertex is then its first again.
+    ring_offset : float
+        Arc length from the first vertex of its ring to its start.
     """
 
     vertices: NDArray[np.float64]
     label: str = ""
+    closed: bool = False
+    ring_offset: float = 0.0
 
     @property
     def length(self) -> float:
@@ -34,6 +40,8 @@ class Segment:
         """Average absolute curvature: the turns between its edges in radians, divided by its length."""
         steps = np.diff(self.vertices, axis=0)
         angles = np.arctan2(steps[:, 1], steps[:, 0])
+        if self.closed:
+            angles = np.append(angles, angles[0])
         turns = (np.diff(angles) + np.pi) % (2 * np.pi) - np.pi
         return float(np.abs(turns).sum() / self.length)
 
@@ -115,13 +123,16 @@ def ring_features(ring: NDArray[np.float64], edge_labels: tuple[str, ...] = ()) 
     sharp = sharp_vertices(ring)
     ends = np.flatnonzero(sharp | np.array([labels[i - 1] != labels[i] for i in range(n)]))
     directions = np.roll(ring, -1, axis=0) - ring
-    directions = directions / np.hypot(*directions.T)[:, None]
+    lengths = np.hypot(*directions.T)
+    offsets = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
+    directions = directions / lengths[:, None]
     corners = [Corner(ring[i], directions[i - 1], directions[i]) for i in np.flatnonzero(sharp)]
     if not len(ends):
-        return [Segment(np.vstack([ring, ring[:1]]), labels[0])], corners
+        return [Segment(np.vstack([ring, ring[:1]]), labels[0], closed=True)], corners
     segments = []
     for start, end in zip(ends, np.append(ends[1:], ends[0] + n), strict=True):
-        segments.append(Segment(ring[np.arange(start, end + 1) % n], labels[start]))
+        vertices = ring[np.arange(start, end + 1) % n]
+        segments.append(Segment(vertices, labels[start], ring_offset=float(offsets[start])))
     return segments, corners
 
 
@@ -137,9 +148,20 @@ def polygon_features(polygon: Polygon) -> tuple[list[Segment], list[Corner]]:
     segments : list of Segment
     corners : list of Corner
     """
-    segments, corners = ring_features(polygon.points, polygon.segment_labels)
-    for hole in polygon.holes:
-        more_segments, more_corners = ring_features(hole)
-        segments += more_segments
-        corners += more_corners
-    return segments, corners
+    by_ring = features_by_ring(polygon)
+    return [s for segments, _ in by_ring for s in segments], [c for _, corners in by_ring for c in corners]
+
+
+def features_by_ring(polygon: Polygon) -> list[tuple[list[Segment], list[Corner]]]:
+    """The segments and corners of each ring of a polygon, its outline first.
+
+    Parameters
+    ----------
+    polygon : Polygon
+
+    Returns
+    -------
+    list of (list of Segment, list of Corner)
+    """
+    labels = (polygon.segment_labels, *[()] * len(polygon.holes))
+    return [ring_features(ring, names) for ring, names in zip(polygon.rings, labels, strict=True)]

@@ -11,7 +11,7 @@ from ..tolerances import CONTAINED_SHARE, STRADDLING_SHARE
 from .polygon import Polygon
 
 
-def find_parents(polygons: Sequence[Polygon], ids: Sequence[str | None]) -> tuple[NDArray[np.intp], list[list[int]]]:
+def find_parents(polygons: Sequence[Polygon]) -> tuple[NDArray[np.intp], list[list[int]]]:
     """The parent of every polygon, and the members of every polygon.
 
     The parent is the one a polygon names, else the smallest larger polygon that holds 95 % of its area. Members are the
@@ -22,8 +22,6 @@ def find_parents(polygons: Sequence[Polygon], ids: Sequence[str | None]) -> tupl
     Parameters
     ----------
     polygons : sequence of Polygon
-    ids : sequence of str or None
-        The id of each, as children name it; may repeat.
 
     Returns
     -------
@@ -38,21 +36,7 @@ def find_parents(polygons: Sequence[Polygon], ids: Sequence[str | None]) -> tupl
         Where a polygon names a parent that is not in the scene, or names form a circle.
     """
     n = len(polygons)
-    parents = np.full(n, -1)
-    index: dict[str | None, list[int]] = {}
-    for i, name in enumerate(ids):
-        index.setdefault(name, []).append(i)
-    for i, p in enumerate(polygons):
-        if p.parent is not None:
-            named = [k for k in index.get(p.parent, []) if k != i]
-            if not named:
-                raise InputError(
-                    f"polygon {p.id!r} names the parent {p.parent!r}, which is not in the scene; "
-                    "add it or leave the parent out"
-                )
-            # Several of that name: the one that holds most of the child.
-            held = [polygons[k].shape.intersection(p.shape).area for k in named] if len(named) > 1 else [0.0]
-            parents[i] = named[int(np.argmax(held))]
+    parents = _stated_parents(polygons)
     members: list[set[int]] = [set() for _ in range(n)]
     straddling: list[tuple[int, int]] = []
     free = np.flatnonzero(parents < 0)
@@ -72,7 +56,10 @@ def find_parents(polygons: Sequence[Polygon], ids: Sequence[str | None]) -> tupl
         parents[first[start]] = second[start]
         over = ~holds & (share >= STRADDLING_SHARE)
         straddling = list(zip(small[over].tolist(), large[over].tolist(), strict=True))
-    _refuse_circles(polygons, parents)
+        # A room said to belong to its own table: what is stated stands, and the found link of the circle gives way.
+        for circle in _circles(parents):
+            found = [i for i in circle if polygons[i].parent is None]
+            parents[max(found, key=lambda i: areas[i])] = -1
     for child, parent in enumerate(parents):
         if parent >= 0:
             members[parent].add(child)
@@ -82,15 +69,35 @@ def find_parents(polygons: Sequence[Polygon], ids: Sequence[str | None]) -> tupl
     return parents, [sorted(m) for m in members]
 
 
-def _refuse_circles(polygons: Sequence[Polygon], parents: NDArray[np.intp]) -> None:
-    """Raise where following the parents never ends."""
+def _stated_parents(polygons: Sequence[Polygon]) -> NDArray[np.intp]:
+    """Index of the parent that each polygon names, -1 where it names none."""
+    index = {p.id: i for i, p in enumerate(polygons)}
+    parents = np.full(len(polygons), -1)
+    for i, p in enumerate(polygons):
+        if p.parent is not None:
+            if p.parent not in index:
+                raise InputError(
+                    f"polygon {p.id!r} names the parent {p.parent!r}, which is not in the scene; "
+                    "add it or leave the parent out"
+                )
+            parents[i] = index[p.parent]
+    circles = _circles(parents)
+    if circles:
+        raise InputError(f"polygon {polygons[circles[0][0]].id!r} is its own ancestor; correct the stated parents")
+    return parents
+
+
+def _circles(parents: NDArray[np.intp]) -> list[list[int]]:
+    """The circles that following the parents runs into, each once."""
+    circles: list[list[int]] = []
     done = parents < 0
     for start in range(len(parents)):
-        path = []
+        path: dict[int, None] = {}
         i = start
-        while not done[i]:
-            path.append(i)
+        while not done[i] and i not in path:
+            path[i] = None
             i = int(parents[i])
-            if i in path:
-                raise InputError(f"polygon {polygons[i].id!r} is its own ancestor; correct the stated parents")
-        done[path] = True
+        if not done[i]:
+            circles.append(list(path)[list(path).index(i) :])
+        done[list(path)] = True
+    return circles

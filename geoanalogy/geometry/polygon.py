@@ -34,8 +34,11 @@ def signed_area(ring: NDArray[np.float64]) -> float:
     return float(0.5 * (np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))))
 
 
-def clean_ring(points: ArrayLike, name: str) -> tuple[NDArray[np.float64], NDArray[np.intp], bool]:
+def clean_ring(points: ArrayLike, name: str) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
     """A ring in canonical form: distinct neighbours, counter-clockwise, last vertex not repeated.
+
+    The first vertex stays the first even where the ring is turned round: the fixed-start arc length of section 4.7
+    begins there.
 
     Parameters
     ----------
@@ -48,10 +51,8 @@ def clean_ring(points: ArrayLike, name: str) -> tuple[NDArray[np.float64], NDArr
     -------
     ring : ndarray of shape (m, 2), float64
         Counter-clockwise vertices.
-    kept : ndarray of shape (m,), int
-        Index in `points` of every vertex that was kept, in the order of `ring`.
-    turned : bool
-        Whether the ring was given clockwise.
+    edges : ndarray of shape (m,), int
+        The edge of `points` that each edge of `ring` was; edge i runs from vertex i to vertex i + 1.
 
     Raises
     ------
@@ -60,7 +61,7 @@ def clean_ring(points: ArrayLike, name: str) -> tuple[NDArray[np.float64], NDArr
     """
     try:
         ring = np.asarray(points, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError(f"{name} has coordinates that are not numbers; give an array of x, y pairs") from None
     if ring.ndim != 2 or ring.shape[1] != 2:
         raise InputError(f"{name} has an array of shape {ring.shape}; give vertices as an array of shape (n, 2)")
@@ -71,15 +72,12 @@ def clean_ring(points: ArrayLike, name: str) -> tuple[NDArray[np.float64], NDArr
             f"{name} lies more than {LARGEST_COORDINATE:g} units from the origin; move the scene near the origin"
         )
     extent = float(np.ptp(ring, axis=0).max()) if len(ring) else 0.0
-    kept = np.arange(len(ring))
-    while len(kept) > 1:
-        gaps = np.abs(ring[kept] - np.roll(ring[kept], -1, axis=0)).max(axis=1)
-        short = np.flatnonzero(gaps <= ZERO_LENGTH * extent)
-        if not len(short):
-            break
-        kept = np.delete(kept, (short[0] + 1) % len(kept))
+    kept, edges = _distinct(ring, ZERO_LENGTH * extent)
     if len(kept) < 3:
-        raise InputError(f"{name} has {len(kept)} distinct vertices; a polygon needs at least three")
+        raise InputError(
+            f"{name} has {len(kept)} distinct {'vertex' if len(kept) == 1 else 'vertices'}; "
+            "a polygon needs at least three"
+        )
     ring = ring[kept]
     area = signed_area(ring)
     if abs(area) <= ZERO_LENGTH * extent * extent:
@@ -91,8 +89,27 @@ def clean_ring(points: ArrayLike, name: str) -> tuple[NDArray[np.float64], NDArr
         place = f"x {x + ring[0, 0]:.6g}, y {y + ring[0, 1]:.6g}"
         raise InputError(f"{name} crosses or touches itself near {place}; redraw it as a simple ring")
     if area > 0:
-        return ring, kept, False
-    return ring[::-1].copy(), kept[::-1].copy(), True
+        return ring, edges
+    return np.roll(ring[::-1], 1, axis=0), edges[::-1].copy()
+
+
+def _distinct(ring: NDArray[np.float64], shortest: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Indices of the vertices that stay when coincident neighbours are merged, and of the edges that leave them."""
+    kept = edges = np.arange(len(ring))
+    while len(kept) > 1:
+        gaps = np.abs(np.roll(ring[kept], -1, axis=0) - ring[kept]).max(axis=1)
+        long = np.flatnonzero(gaps > shortest)
+        if len(long) == len(kept):
+            break
+        # A vertex gives way to the one before it; only the last gives way to the first.
+        stays = np.roll(gaps > shortest, 1)
+        if not stays[0]:
+            stays[0], stays[-1] = True, False
+        stays = np.flatnonzero(stays)
+        if len(long):
+            edges = edges[long[np.searchsorted(long, stays) % len(long)]]
+        kept = kept[stays]
+    return kept, edges[: len(kept)]
 
 
 class Polygon:
@@ -119,7 +136,7 @@ class Polygon:
     Attributes
     ----------
     points : ndarray of shape (n, 2), float64
-        Counter-clockwise outline without a repeated last vertex; read-only.
+        Counter-clockwise outline from the first vertex given, without a repeated last one; read-only.
     holes : tuple of ndarray
         Clockwise rings; the polygon's interior is on their left as well.
     segment_labels : tuple of str
@@ -135,7 +152,7 @@ class Polygon:
     --------
     >>> room = Polygon([(0, 0), (0, 3), (4, 3), (4, 0)], label="bedroom")
     >>> room.area, room.points.tolist()
-    (12.0, [[4.0, 0.0], [4.0, 3.0], [0.0, 3.0], [0.0, 0.0]])
+    (12.0, [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]])
     """
 
     def __init__(
@@ -148,18 +165,24 @@ class Polygon:
         orientation: float | None = None,
         segment_labels: Sequence[str] | None = None,
     ) -> None:
-        self.label = str(label or "")
+        self.label = "" if label is None else str(label)
         self.id = None if id is None else str(id)
         self.parent = None if parent is None else str(parent)
         name = f"polygon {self.id!r}" if self.id is not None else f"a polygon labelled {self.label!r}"
         if orientation is not None and not np.isfinite(orientation):
             raise InputError(f"{name} has an orientation that is not finite; give radians or leave it out")
         self.orientation = None if orientation is None else float(orientation)
-        given = np.asarray(points, dtype=object)
-        closed = len(given) > 1 and np.array_equal(given[0], given[-1])
-        self.points, kept, turned = clean_ring(points, name)
+        self.points, edges = clean_ring(points, name)
         self.points.flags.writeable = False
-        self.segment_labels = self._edge_labels(segment_labels, len(given) - closed, kept, turned, name)
+        self.segment_labels = ("",) * len(edges)
+        if segment_labels is not None:
+            count = len(np.asarray(points))
+            closed = edges.max() < count - 1
+            if not count - closed <= len(segment_labels) <= count:
+                raise InputError(
+                    f"{name} has {len(segment_labels)} segment labels for {count - closed} edges; give one per edge"
+                )
+            self.segment_labels = tuple("" if segment_labels[i] is None else str(segment_labels[i]) for i in edges)
         self.holes = tuple(clean_ring(h, f"hole {i} of {name}")[0][::-1] for i, h in enumerate(holes))
         if self.holes and not self.shape.is_valid:
             raise InputError(
@@ -167,17 +190,6 @@ class Polygon:
             )
         for hole in self.holes:
             hole.flags.writeable = False
-
-    def _edge_labels(
-        self, labels: Sequence[str] | None, edges: int, kept: NDArray[np.intp], turned: bool, name: str
-    ) -> tuple[str, ...]:
-        if labels is None:
-            return ("",) * len(self.points)
-        if len(labels) not in (edges, edges + 1):
-            raise InputError(f"{name} has {len(labels)} segment labels for {edges} edges; give one per edge")
-        per_vertex = [str(labels[i % edges] or "") for i in kept]
-        # Turned round, the edge after a vertex is the one that came before it.
-        return tuple(per_vertex[1:] + per_vertex[:1]) if turned else tuple(per_vertex)
 
     def __repr__(self) -> str:
         return f"Polygon({len(self.points)} vertices, label={self.label!r}, id={self.id!r})"

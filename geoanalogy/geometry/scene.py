@@ -1,6 +1,7 @@
 """Scenes: arrangements of labelled polygons with a hierarchy (sections 4.2 and 4.8)."""
 
 import copy
+import itertools
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 from typing import Any
@@ -23,10 +24,14 @@ class Scene:
         Those without an id are given one that is free ("polygon 3"). An id that occurs again gets a number, as names
         do in Blender ("bed", "bed.001"); a parent named by several polygons is the one of them that holds most of the
         child.
+    offset : pair of float
+        What is added to the scene's coordinates to have those of the file it came from: map coordinates are brought
+        near the origin, where Blender's single precision and ours hold them exactly.
 
     Attributes
     ----------
     polygons : tuple of Polygon
+    offset : tuple of float
 
     Raises
     ------
@@ -44,7 +49,7 @@ class Scene:
     ('b1', ['b1'])
     """
 
-    def __init__(self, polygons: Iterable[Polygon]) -> None:
+    def __init__(self, polygons: Iterable[Polygon], offset: tuple[float, float] = (0.0, 0.0)) -> None:
         given = tuple(polygons)
         for p in given:
             if not isinstance(p, Polygon):
@@ -53,9 +58,7 @@ class Scene:
                 )
         self.polygons: tuple[Polygon, ...] = _with_unique_ids(given)
         self._index: dict[str, int] = {str(p.id): i for i, p in enumerate(self.polygons)}
-        # The parents are resolved by the names as they were given: a parent's own new name cannot be known to its
-        # children.
-        self._given_ids = [p.id for p in given]
+        self.offset = (float(offset[0]), float(offset[1]))
 
     def __repr__(self) -> str:
         return f"Scene({len(self.polygons)} polygons)"
@@ -65,7 +68,7 @@ class Scene:
 
     @cached_property
     def _hierarchy(self) -> tuple[NDArray[np.intp], list[list[int]]]:
-        return find_parents(self.polygons, self._given_ids)
+        return find_parents(self.polygons)
 
     @cached_property
     def _tree(self) -> shapely.STRtree:
@@ -170,7 +173,7 @@ class Scene:
         -------
         Scene
         """
-        return Scene([*self.polygons, *polygons])
+        return Scene([*self.polygons, *polygons], self.offset)
 
     @cached_property
     def bounds(self) -> NDArray[np.float64]:
@@ -186,28 +189,40 @@ class Scene:
         Returns
         -------
         dict
+            Arguments for `Scene`, its polygons as arguments for `Polygon`.
         """
-        return {"polygons": [p.to_dict() for p in self.polygons]}
+        plain: dict[str, Any] = {"polygons": [p.to_dict() for p in self.polygons]}
+        if any(self.offset):
+            plain["offset"] = list(self.offset)
+        return plain
 
 
 def _with_unique_ids(polygons: tuple[Polygon, ...]) -> tuple[Polygon, ...]:
-    """The polygons, copied where they need an id of their own."""
+    """The polygons, copied where they or the parent they name need a new id."""
     stated = {p.id for p in polygons if p.id is not None}
-    used: set[str] = set()
-    unnamed = 0
-    result = []
+    used: dict[str, Polygon] = {}
+    bearers: dict[str, list[str]] = {}
+    unnamed = (f"polygon {k}" for k in itertools.count())
     for p in polygons:
-        name = p.id
-        if name is None:
-            while (name := f"polygon {unnamed}") in stated | used:
-                unnamed += 1
-        elif name in used:
-            repeat = 1
-            while (name := f"{p.id}.{repeat:03d}") in stated | used:
-                repeat += 1
-        used.add(name)
-        if name != p.id:
+        if p.id is None:
+            used[next(n for n in unnamed if n not in stated)] = p
+            continue
+        same = bearers.setdefault(p.id, [])
+        numbered = (f"{p.id}.{k:03d}" for k in itertools.count(max(len(same), 1)))
+        name = p.id if not same else next(n for n in numbered if n not in stated and n not in used)
+        same.append(name)
+        used[name] = p
+    result = []
+    for name, p in used.items():
+        parent = p.parent
+        named = [k for k in bearers.get(parent, ()) if k != name] if parent is not None else []
+        if len(named) > 1:
+            held = [used[k].shape.intersection(p.shape).area for k in named]
+            parent = named[int(np.argmax(held))]
+        elif named:
+            parent = named[0]
+        if (name, parent) != (p.id, p.parent):
             p = copy.copy(p)
-            p.id = name
+            p.id, p.parent = name, parent
         result.append(p)
     return tuple(result)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.features import polygon_features
+from ..geometry.features import features_by_ring
 from ..geometry.polygon import Polygon
 
 Array = NDArray[np.float64]
@@ -37,8 +37,12 @@ class Elements:
         Direction in radians of the x axis in which bounding boxes are taken.
     edge_start, edge_vector : ndarray of shape (e, 2)
         Every boundary edge of every polygon: its first vertex and the way to its second.
-    edge_length, edge_offset, edge_ring_offset : ndarray of shape (e,)
-        Length, arc length from the segment's start, and arc length from the first vertex of the edge's ring.
+    edge_length, edge_offset : ndarray of shape (e,)
+        Length, and arc length from the segment's start.
+    edge_ring_offset, edge_ring_length : ndarray of shape (e,)
+        Arc length from the first vertex of the edge's ring, and the length of that ring.
+    edge_turns : ndarray of shape (e, 2)
+        Turns of the boundary at the edge's first and second vertex, in radians, positive to the left.
     edge_polygon, edge_segment : ndarray of shape (e,), int
         The polygon and segment of each edge; edges are ordered by segment, segments by polygon.
     segment_polygon : ndarray of shape (s,), int
@@ -61,6 +65,8 @@ class Elements:
     edge_length: Array
     edge_offset: Array
     edge_ring_offset: Array
+    edge_ring_length: Array
+    edge_turns: Array
     edge_polygon: Indices
     edge_segment: Indices
     segment_polygon: Indices
@@ -87,30 +93,38 @@ class Elements:
         -------
         Elements
         """
-        starts, vectors, offsets, ring_offsets, edge_polygon, edge_segment = [], [], [], [], [], []
-        segment_polygon, lengths, curvatures, closed, labels = [], [], [], [], []
+        starts, vectors, turns, offsets, ring_offsets, ring_lengths = [], [], [], [], [], []
+        edge_polygon: list[int] = []
+        edge_segment: list[int] = []
+        lengths: list[float] = []
+        segment_polygon, curvatures, closed, labels = [], [], [], []
         vertices, before, opening, corner_polygon = [], [], [], []
         for i, polygon in enumerate(polygons):
-            segments, corners = polygon_features(polygon)
-            for s in segments:
-                steps = np.diff(s.vertices, axis=0)
-                arc = np.cumsum(np.hypot(*steps.T))
-                starts.append(s.vertices[:-1])
-                vectors.append(steps)
-                offsets.append(np.concatenate([[0.0], arc[:-1]]))
-                ring_offsets.append(offsets[-1] + _ring_offset(polygon, s.vertices[0]))
-                edge_polygon += [i] * len(steps)
-                edge_segment += [len(lengths)] * len(steps)
-                segment_polygon.append(i)
-                lengths.append(arc[-1])
-                curvatures.append(s.curvature)
-                closed.append(bool((s.vertices[0] == s.vertices[-1]).all()))
-                labels.append(s.label)
-            for c in corners:
-                vertices.append(c.vertex)
-                before.append(np.arctan2(-c.before[1], -c.before[0]))
-                opening.append(c.opening)
-                corner_polygon.append(i)
+            for segments, corners in features_by_ring(polygon):
+                ring_length = sum(s.length for s in segments)
+                first_edge = len(edge_polygon)
+                for s in segments:
+                    steps = np.diff(s.vertices, axis=0)
+                    arc = np.cumsum(np.hypot(*steps.T))
+                    starts.append(s.vertices[:-1])
+                    vectors.append(steps)
+                    offsets.append(np.concatenate([[0.0], arc[:-1]]))
+                    # A segment may run over the ring's first vertex; there the count starts again.
+                    ring_offsets.append((s.ring_offset + offsets[-1]) % ring_length)
+                    edge_polygon += [i] * len(steps)
+                    edge_segment += [len(lengths)] * len(steps)
+                    segment_polygon.append(i)
+                    lengths.append(arc[-1])
+                    curvatures.append(s.curvature)
+                    closed.append(s.closed)
+                    labels.append(s.label)
+                ring_lengths.append(np.full(len(edge_polygon) - first_edge, ring_length))
+                turns.append(_turns(np.concatenate(vectors[-len(segments) :])))
+                for c in corners:
+                    vertices.append(c.vertex)
+                    before.append(np.arctan2(-c.before[1], -c.before[0]))
+                    opening.append(c.opening)
+                    corner_polygon.append(i)
         edge_vector = np.concatenate(vectors) if vectors else np.zeros((0, 2))
         return cls(
             polygons=tuple(polygons),
@@ -120,6 +134,8 @@ class Elements:
             edge_length=np.hypot(*edge_vector.T),
             edge_offset=np.concatenate(offsets) if offsets else np.zeros(0),
             edge_ring_offset=np.concatenate(ring_offsets) if ring_offsets else np.zeros(0),
+            edge_ring_length=np.concatenate(ring_lengths) if ring_lengths else np.zeros(0),
+            edge_turns=np.concatenate(turns) if turns else np.zeros((0, 2)),
             edge_polygon=np.array(edge_polygon, dtype=np.intp),
             edge_segment=np.array(edge_segment, dtype=np.intp),
             segment_polygon=np.array(segment_polygon, dtype=np.intp),
@@ -162,10 +178,9 @@ class Elements:
         return self.segment_polygon if element is ElementType.SEGMENT else self.corner_polygon
 
 
-def _ring_offset(polygon: Polygon, vertex: Array) -> float:
-    """Arc length from the first vertex of the vertex's ring to the vertex."""
-    for ring in polygon.rings:
-        at = np.flatnonzero((ring == vertex).all(axis=1))
-        if len(at):
-            return float(np.hypot(*np.diff(ring[: at[0] + 1], axis=0).T).sum())
-    raise AssertionError("a segment starts at a vertex of its polygon")
+def _turns(steps: Array) -> Array:
+    """Turns before and after each edge of a ring, shape (n, 2), from the ways along its edges."""
+    following = np.roll(steps, -1, axis=0)
+    cross = steps[:, 0] * following[:, 1] - steps[:, 1] * following[:, 0]
+    after = np.arctan2(cross, np.einsum("ij,ij->i", steps, following))
+    return np.stack([np.roll(after, 1), after], axis=1)

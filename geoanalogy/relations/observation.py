@@ -24,16 +24,20 @@ class Nearest:
     arc : ndarray of shape (elements, points)
         Arc length from the start of the segment (or of the ring) to the place.
     tangent : ndarray of shape (elements, points)
-        Direction of the boundary there, radians.
+        Direction of the boundary there, radians. At a vertex, where the boundary has two, it is the one at right angles
+        to the way to the point: it turns steadily from the first to the second as the point goes round the vertex.
     between : ndarray of shape (elements, points), bool
         Whether the place lies inside an edge, where moving the point along the boundary moves the place as far; at a
         vertex it stays.
+    edge : ndarray of shape (elements, points), int
+        Index of the edge that the place is on.
     """
 
     distance: Array
     arc: Array
     tangent: Array
     between: NDArray[np.bool_]
+    edge: NDArray[np.intp]
 
 
 class Observation:
@@ -62,13 +66,13 @@ class Observation:
         y -= along * direction[:, 1:]
         return along, np.hypot(x, y)
 
-    def _nearest(self, group: NDArray[np.intp], count: int, offset: Array) -> Nearest:
+    def _nearest(self, group: NDArray[np.intp], count: int, offset: Array, ends: NDArray[np.bool_]) -> Nearest:
         along, distance = self._edges
         e = self.elements
         n = len(self.points)
         if not count:
             empty = np.zeros((0, n))
-            return Nearest(empty, empty, empty, empty.astype(bool))
+            return Nearest(empty, empty, empty, empty.astype(bool), empty.astype(np.intp))
         if len(group) == count:  # one edge each: straight segments
             best = np.broadcast_to(np.arange(count)[:, None], (count, n))
         else:
@@ -79,24 +83,32 @@ class Observation:
                 best[k] = first[k] + np.argmin(distance[first[k] : last[k]], axis=0)
         column = np.arange(n)
         place = along[best, column]
-        return Nearest(
-            distance[best, column],
-            place + offset[best],
-            np.arctan2(e.edge_vector[:, 1], e.edge_vector[:, 0])[best],
-            (place > 0) & (place < e.edge_length[best]),
-        )
+        between = (place > 0) & (place < e.edge_length[best])
+        tangent = np.arctan2(e.edge_vector[:, 1], e.edge_vector[:, 0])[best]
+        distance = distance[best, column]
+        end = (place > 0).astype(np.intp)
+        row, point = np.nonzero(~between & (distance > 0) & ~ends[best, end])
+        edge, end = best[row, point], end[row, point]
+        way = self.points[point] - e.edge_start[edge] - end[:, None] * e.edge_vector[edge]
+        # Points nearest to a vertex lie on the outer side of its turn.
+        side = np.where(e.edge_turns[edge, end] > 0, np.pi / 2, -np.pi / 2)
+        tangent[row, point] = np.arctan2(way[:, 1], way[:, 0]) + side
+        return Nearest(distance, place + offset[best], tangent, between, best)
 
     @cached_property
     def segment(self) -> Nearest:
         """Nearest place on each segment; arcs from the segment's start."""
         e = self.elements
-        return self._nearest(e.edge_segment, len(e.segment_length), e.edge_offset)
+        last = np.append(np.diff(e.edge_segment) != 0, True)
+        ends = np.stack([np.roll(last, 1), last], axis=1) & ~e.segment_closed[e.edge_segment, None]
+        return self._nearest(e.edge_segment, len(e.segment_length), e.edge_offset, ends)
 
     @cached_property
     def boundary(self) -> Nearest:
         """Nearest place on each polygon's boundary; arcs from its ring's first vertex."""
         e = self.elements
-        return self._nearest(e.edge_polygon, len(e.polygons), e.edge_ring_offset)
+        ends = np.zeros((len(e.edge_polygon), 2), dtype=bool)
+        return self._nearest(e.edge_polygon, len(e.polygons), e.edge_ring_offset, ends)
 
     @cached_property
     def inside(self) -> NDArray[np.bool_]:
@@ -124,7 +136,7 @@ class Observation:
 
     @cached_property
     def box(self) -> tuple[Array, Array, Array]:
-        """The points in the elements' frame, (2, n), and each polygon's least and greatest coordinates there, (p, 2)."""
+        """The points in the elements' frame, (2, n), and each polygon's least and greatest coordinates, (p, 2)."""
         c, s = np.cos(self.elements.frame), np.sin(self.elements.frame)
         turn = np.array([[c, s], [-s, c]])
         rings = [turn @ p.points.T for p in self.elements.polygons]

@@ -135,17 +135,11 @@ def _centroid_direction_slope(seen: Observation) -> Array:
 
 
 def _fixed_start_arc_length(seen: Observation) -> Array:
-    return seen.boundary.arc / _perimeters(seen)
+    return seen.boundary.arc / seen.elements.edge_ring_length[seen.boundary.edge]
 
 
 def _fixed_start_arc_slope(seen: Observation) -> Array:
-    return seen.boundary.between / _perimeters(seen)
-
-
-def _perimeters(seen: Observation) -> Array:
-    return np.array([np.hypot(*(np.roll(p.points, -1, axis=0) - p.points).T).sum() for p in seen.elements.polygons])[
-        :, None
-    ]
+    return seen.boundary.between / seen.elements.edge_ring_length[seen.boundary.edge]
 
 
 def _box_coordinate(axis: int, origin: Callable[[Array, Array], Array]) -> Callable[[Observation], Array]:
