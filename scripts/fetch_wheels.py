@@ -1,6 +1,6 @@
 """Fetch the wheels that the extension carries into ./wheels, and prove that none is missing.
 
-    python scripts/fetch_wheels.py                              all of them, about 215 MB
+    python scripts/fetch_wheels.py                              all of them, about 320 MB
     python scripts/fetch_wheels.py --platform linux-x64 --python 3.11
 
 The manifest lists the files one by one. This program fails where that list is not the complete grid of packages,

@@ -15,7 +15,9 @@ import tempfile
 from pathlib import Path
 from xml.etree import ElementTree
 
-ROOT = Path(__file__).resolve().parents[1]
+import wheel_grid
+
+ROOT = wheel_grid.ROOT
 TESTS = ROOT / "tests" / "blender"
 
 
@@ -37,6 +39,14 @@ def judge(report: Path, status: int) -> int:
     return 1 if failed or not passed else 0
 
 
+def fetch_wheels(all_pythons: bool) -> None:
+    """Fetch the libraries that the zip of this platform carries; a Blender's Python is known only once it runs."""
+    pythons = wheel_grid.PYTHONS if all_pythons else [".".join(map(str, sys.version_info[:2]))]
+    if wheel_grid.PLATFORM_HERE:
+        command = [sys.executable, str(ROOT / "scripts" / "fetch_wheels.py"), "--platform", wheel_grid.PLATFORM_HERE]
+        subprocess.run([*command, *(f"--python={python}" for python in pythons)], check=True)
+
+
 def blender_command(blender: str, site: Path) -> list[str]:
     """The command that runs the tests inside a Blender, with a pytest that its Python lacks."""
     if not (site / "pytest").is_dir():
@@ -50,6 +60,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--blender", help="Blender's program; without it, the bpy module of this Python")
     arguments, pytest_arguments = parser.parse_known_args()
+    fetch_wheels(all_pythons=arguments.blender is not None)
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder, "report.xml")
         profile = Path(folder, "profile")

@@ -12,8 +12,9 @@ FOLDER = ROOT / "wheels"
 # and 5.0 and on the numpy 2 of 5.1 and later.
 VERSIONS = {"scipy": "1.16.3", "shapely": "2.1.2"}
 
-# Blender 4.5 and 5.0 run Python 3.11, Blender 5.1 and 5.2 run 3.13.
-PYTHONS = ("3.11", "3.13")
+# Blender 4.5 and 5.0 run Python 3.11, Blender 5.1 and 5.2 run 3.13; Linux distributions build 5.2 with 3.14, and
+# Blender refuses an extension whose wheels do not name its Python.
+PYTHONS = ("3.11", "3.13", "3.14")
 
 # Blender's names of the platforms, and the tags that pip may choose from for each.
 PLATFORMS = {

@@ -11,7 +11,7 @@ from pathlib import Path
 import bpy  # isort: skip
 import addon_utils
 
-bpy.ops.extensions.package_install_files(filepath=sys.argv[1], repo="user_default", enable_on_install=True)
+bpy.ops.extensions.package_install_files(filepath=sys.argv[-2], repo="user_default", enable_on_install=True)
 engine = importlib.import_module("bl_ext.user_default.geoanalogy.geoanalogy")
 
 import scipy.spatial  # noqa: E402  # the libraries are on the path only now
@@ -24,4 +24,4 @@ result = {
     "area": shapely.Polygon(ring[scipy.spatial.ConvexHull(ring).vertices]).area,
     "warnings": dict(addon_utils._extensions_warnings_get()),
 }
-Path(sys.argv[2]).write_text(json.dumps(result))
+Path(sys.argv[-1]).write_text(json.dumps(result))
