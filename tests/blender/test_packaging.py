@@ -110,7 +110,8 @@ def test_the_engine_of_the_extension_works(engine):
     reason=f"the extension carries no wheels for Python {PYTHON_HERE} on {sysconfig.get_platform()}",
 )
 def test_the_zip_with_its_wheels_brings_its_own_libraries(tmp_path):
-    built = build_extension(tmp_path / "zip", "--platform", wheel_grid.PLATFORM_HERE)
+    here = ["--platform", wheel_grid.PLATFORM_HERE, "--python", PYTHON_HERE]
+    built = build_extension(tmp_path / "zip", *here)
     said = tmp_path / "said.json"
     profile = tmp_path / "profile"
     script = str(Path(__file__).with_name("install_with_wheels.py"))
