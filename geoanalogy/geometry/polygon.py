@@ -105,10 +105,10 @@ def _distinct(ring: NDArray[np.float64], shortest: float) -> tuple[NDArray[np.in
         stays = np.roll(gaps > shortest, 1)
         if not stays[0]:
             stays[0], stays[-1] = True, False
-        stays = np.flatnonzero(stays)
+        staying = np.flatnonzero(stays)
         if len(long):
-            edges = edges[long[np.searchsorted(long, stays) % len(long)]]
-        kept = kept[stays]
+            edges = edges[long[np.searchsorted(long, staying) % len(long)]]
+        kept = kept[staying]
     return kept, edges[: len(kept)]
 
 
