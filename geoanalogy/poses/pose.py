@@ -1,0 +1,96 @@
+"""Poses: a position with a direction, and whether the object is mirrored (sections 4.2 and 4.6)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import InputError
+from ..geometry.polygon import clean_ring
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where an object stands and which way it faces.
+
+    Attributes
+    ----------
+    position : tuple of float
+        x and y in scene coordinates.
+    angle : float
+        Direction in radians, counter-clockwise from the x axis.
+    mirrored : bool
+        Whether the object is reflected about its direction before it is put there (the flag P_m of section 4.6).
+
+    Raises
+    ------
+    InputError
+        For numbers that are not finite.
+
+    Examples
+    --------
+    >>> Pose((1, 2), 0.5).to_scene([(1.0, 0.0)]).round(3).tolist()
+    [[1.878, 2.479]]
+    """
+
+    position: tuple[float, float]
+    angle: float = 0.0
+    mirrored: bool = False
+
+    def __post_init__(self) -> None:
+        x, y = (float(v) for v in self.position)
+        if not np.isfinite([x, y, self.angle]).all():
+            raise InputError("the pose has a position or angle that is not finite; give numbers")
+        object.__setattr__(self, "position", (x, y))
+        object.__setattr__(self, "angle", float(self.angle))
+
+    def to_scene(self, points: ArrayLike) -> NDArray[np.float64]:
+        """Points of the pose's own frame (x along its direction) in scene coordinates.
+
+        Parameters
+        ----------
+        points : array_like of shape (n, 2)
+
+        Returns
+        -------
+        ndarray of shape (n, 2)
+        """
+        p = np.asarray(points, dtype=np.float64)
+        if self.mirrored:
+            p = p * (1.0, -1.0)
+        c, s = np.cos(self.angle), np.sin(self.angle)
+        return p @ np.array([[c, s], [-s, c]]) + self.position
+
+    def to_frame(self, points: ArrayLike) -> NDArray[np.float64]:
+        """Points of the scene in the pose's own frame: the inverse of `to_scene`.
+
+        Parameters
+        ----------
+        points : array_like of shape (n, 2)
+
+        Returns
+        -------
+        ndarray of shape (n, 2)
+        """
+        c, s = np.cos(self.angle), np.sin(self.angle)
+        p = (np.asarray(points, dtype=np.float64) - self.position) @ np.array([[c, -s], [s, c]])
+        return p * (1.0, -1.0) if self.mirrored else p
+
+
+def footprint_ring(footprint: ArrayLike | None) -> NDArray[np.float64] | None:
+    """A footprint as a clean ring in the pose's frame; None stays None: the object is a point.
+
+    Parameters
+    ----------
+    footprint : array_like of shape (n, 2) or None
+
+    Returns
+    -------
+    ndarray of shape (m, 2) or None
+
+    Raises
+    ------
+    InputError
+        For anything that is no simple ring with an area.
+    """
+    return None if footprint is None else clean_ring(footprint, "the footprint")[0]

@@ -1,0 +1,149 @@
+"""What a propagation returns: ranked poses, thinned without recomputation (sections 4.5 and 4.8)."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import overload
+
+import numpy as np
+
+from ..geometry.polygon import Polygon
+from .pose import Pose
+
+
+@dataclass(frozen=True)
+class RelationShare:
+    """One relation that carries a result (figure 4.14).
+
+    Attributes
+    ----------
+    relation : str
+        Name of the positional relationship function.
+    source, target : str
+        Ids of the polygons whose features were matched: the example's and the result's.
+    source_feature, target_feature : int
+        Number of the feature among those of its type in its polygon.
+    weight : float
+        Its part of the importance; the weights of a result add up to it.
+    """
+
+    relation: str
+    source: str
+    target: str
+    source_feature: int
+    target_feature: int
+    weight: float
+
+
+@dataclass(frozen=True)
+class PropagatedPose:
+    """One place for the object.
+
+    Attributes
+    ----------
+    pose : Pose
+    importance : float
+        1 where every relation of the example is met.
+    parent : Polygon
+        The polygon it stands in.
+    scale : float
+        Size of the object in proportion to the example's for which the relations hold (1 unless the option `scale` is
+        "room").
+    relations : tuple of RelationShare
+        What carried it, largest first.
+    """
+
+    pose: Pose
+    importance: float
+    parent: Polygon
+    scale: float = 1.0
+    relations: tuple[RelationShare, ...] = field(default=(), repr=False)
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether the object is mirrored (section 4.6)."""
+        return self.pose.mirrored
+
+
+class PoseResults(Sequence[PropagatedPose]):
+    """Propagated poses, best first.
+
+    Parameters
+    ----------
+    poses : sequence of PropagatedPose
+        In order.
+    """
+
+    def __init__(self, poses: Sequence[PropagatedPose]) -> None:
+        self._poses = tuple(poses)
+
+    def __len__(self) -> int:
+        return len(self._poses)
+
+    @overload
+    def __getitem__(self, index: int) -> PropagatedPose: ...
+    @overload
+    def __getitem__(self, index: slice) -> "PoseResults": ...
+    def __getitem__(self, index: int | slice) -> "PropagatedPose | PoseResults":
+        return PoseResults(self._poses[index]) if isinstance(index, slice) else self._poses[index]
+
+    def __iter__(self) -> Iterator[PropagatedPose]:
+        return iter(self._poses)
+
+    def __repr__(self) -> str:
+        return f"PoseResults({len(self)} poses)"
+
+    def above(self, threshold: float) -> "PoseResults":
+        """Those of at least an importance.
+
+        Parameters
+        ----------
+        threshold : float
+
+        Returns
+        -------
+        PoseResults
+        """
+        return PoseResults([p for p in self._poses if p.importance >= threshold])
+
+    def max_per(self, label: str, count: int) -> "PoseResults":
+        """The best few in every parent of a label; other parents keep all of theirs (section 4.8).
+
+        Parameters
+        ----------
+        label : str
+        count : int
+
+        Returns
+        -------
+        PoseResults
+        """
+        taken: dict[str | None, int] = {}
+        kept = []
+        for p in self._poses:
+            if p.parent.label == label:
+                taken[p.parent.id] = taken.get(p.parent.id, 0) + 1
+                if taken[p.parent.id] > count:
+                    continue
+            kept.append(p)
+        return PoseResults(kept)
+
+    def apart(self, spacing: float) -> "PoseResults":
+        """The best ones that keep a distance from all better ones in their parent (section 4.8, density).
+
+        Parameters
+        ----------
+        spacing : float
+            Least distance between two positions, scene units.
+
+        Returns
+        -------
+        PoseResults
+        """
+        kept: list[PropagatedPose] = []
+        near: dict[str | None, list[tuple[float, float]]] = {}
+        for p in self._poses:
+            others = near.setdefault(p.parent.id, [])
+            if all(np.hypot(p.pose.position[0] - x, p.pose.position[1] - y) >= spacing for x, y in others):
+                others.append(p.pose.position)
+                kept.append(p)
+        return PoseResults(kept)
