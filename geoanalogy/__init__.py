@@ -6,7 +6,34 @@ the tree that replays edits.
 """
 
 from .errors import Cancelled, InputError
+from .formats.files import read_drawing, read_scene, write_scene
+from .geometry.drawing import Drawing
 from .geometry.polygon import Polygon
+from .geometry.rectangle import Rectangle
 from .geometry.scene import Scene
+from .placements.examples import Example
+from .placements.model import Placement, PlacementModel, learn_placement
+from .placements.options import PlacementOptions
+from .regions.matching import Matches, RegionMatch, match_regions
+from .regions.options import RegionOptions
 
-__all__ = ["Cancelled", "InputError", "Polygon", "Scene"]
+__all__ = [
+    "Cancelled",
+    "Drawing",
+    "Example",
+    "InputError",
+    "Matches",
+    "Placement",
+    "PlacementModel",
+    "PlacementOptions",
+    "Polygon",
+    "Rectangle",
+    "RegionMatch",
+    "RegionOptions",
+    "Scene",
+    "learn_placement",
+    "match_regions",
+    "read_drawing",
+    "read_scene",
+    "write_scene",
+]

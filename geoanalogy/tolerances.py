@@ -24,3 +24,77 @@ STRADDLING_SHARE = 0.05
 #: Share of the smaller polygon's area below which two polygons touch without intersecting: furniture stands against
 #: walls.
 TOUCHING_SHARE = 0.02
+
+# Regions (chapter 3)
+
+#: Lines that a drawing may have. Every line costs a fixed amount of work, so that a drawing of stray dots would
+#: take minutes.
+MOST_LINES = 20_000
+
+#: Points that the lines of a drawing are resampled to: a thousandth of a line's length is finer than any match is.
+CONTOUR_POINTS = 8_000
+
+#: Points that every single line is resampled to at least, so that a small shape in a large drawing keeps its
+#: corners.
+LEAST_CONTOUR_POINTS = 48
+
+#: Smoothing of every line, as a share of its length: rounds the corners of polylines so that their turns have an
+#: extent.
+CONTOUR_SMOOTHING = 0.007
+
+#: Distance from the outline of a query, in extents of the drawing, at which a line still counts as inside: a
+#: region is often drawn by following the very line.
+ON_OUTLINE = 1e-6
+
+#: A query whose ends are farther apart than this many of its longest edges is an open stroke.
+UNCLOSED_EDGES = 1.5
+
+#: Share of the area that the largest part of a self-crossing outline must have: less than that is no loop at the
+#: end of a lasso.
+LEAST_SIMPLE_SHARE = 0.9
+
+#: Total turn, in radians, of the lines in a query below which they are straight (20 degrees).
+LEAST_QUERY_TURN = math.radians(20.0)
+
+#: Stretch of a line, as a share of its length, over which a corner turns: about three widths of the smoothing.
+CORNER_WINDOW = 0.022
+
+#: Turn, in radians, from which such a stretch counts as a corner (14 degrees); a circle turns 8 over it.
+CORNER_TURN = math.radians(14.0)
+
+# Files (geoanalogy.formats)
+
+#: Largest turn, in radians, between two edges of a flattened curve (5.6 degrees): a circle becomes 64 edges, each
+#: off the curve by 0.12 % of the radius, and far from a corner.
+CURVE_TURN = math.pi / 32
+
+#: Parts of a curve below this fraction of its path's extent stay straight whatever they turn: cusps.
+SMALLEST_CURVE = 1e-4
+
+#: Share of its length within which the ends of an open line nearly meet: it was meant to be a ring. Within the
+#: square of it they do meet; hand-typed and rounded coordinates are closer than that.
+NEARLY_CLOSED = 0.01
+
+#: Distance, as a share of a layer's extent, within which the ends of lines meet: hundredths of a millimetre to a
+#: few tenths in a house.
+JOINED_ENDS = 1e-5
+
+#: Distance in scene units from which a file's coordinates are moved near the origin: Blender's single precision
+#: leaves a millimetre there.
+FAR_FROM_ORIGIN = 10_000.0
+
+# Placements (chapter 5)
+
+#: Share of its bounding box that a polygon fills where it is a rectangle of that frame: drawn rectangles are off
+#: by a pixel or a millimetre.
+PARALLEL_SHARE = 0.98
+
+#: Angle in radians within which directions are parallel: rectangles drawn by hand along a wall.
+PARALLEL_ANGLE = math.radians(5.0)
+
+#: Share of its longer side within which two rectangles are the same.
+SAME_RECTANGLE = 1e-6
+
+#: Distance, in square roots of the parent's area, within which an example outside still belongs to it: what is
+#: seen beyond the edge of a photograph.
+NEAR_PARENT = 0.5

@@ -1,0 +1,250 @@
+"""Fitting transformation functions to the lines of the drawing: every candidate is verified and refined.
+
+The sets of correspondences that section 3.5 finds are coarse (their query points lie beside the lines, not on them),
+and some are wrong in a way that only the lines can tell. So each candidate is fitted to the contours: samples of the
+query's lines look for their counterparts along the lines near their images (Viterbi, so that neighbours stay
+neighbours), the smoothest function through the counterparts is one linear solve, and the two alternate.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from ..geometry.contours import Complex, Contours, Floats
+from .courses import Course, lengths
+from .query import Query
+from .transformation import Nodes, TransformationFunction, smoothness
+
+#: Samples of the query's lines.
+SAMPLES = 96
+#: Candidate counterparts of a sample: so many to each side of the nearest point of a line.
+BAND = 7
+#: Stiffness of the functions, round by round: (strain, bend) weights beside a mean squared distance of 1.
+ROUNDS = ((0.3, 0.3), (0.1, 0.2), (0.03, 0.1), (0.02, 0.1), (0.01, 0.1), (0.01, 0.1))
+#: Distance, in extents of the query at the target's scale, at which a counterpart is no evidence any more.
+FAR = 0.05
+#: Weights of the Viterbi costs: distance (in units of FAR), stretch between neighbours, turn between neighbours.
+DISTANCE, STRETCH, TURN = 1.0, 0.35, 1.5
+#: Cost of a sample without counterpart, and of stepping to another line.
+MISSING, CHANGE = 0.4, 1.0
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Samples of the query's lines.
+
+    Attributes
+    ----------
+    points : (s,) complex
+    heading : (s,) float
+        Direction of the line.
+    step : (s,) float
+        Arc length to the sample before; 0 where a stretch begins.
+    turn : (s,) float
+        Turn from the sample before.
+    """
+
+    points: Complex
+    heading: Floats
+    step: Floats
+    turn: Floats
+
+    @classmethod
+    def of(cls, contours: Contours, query: Query) -> "Samples":
+        """Spread SAMPLES over all lines of the query by length."""
+        length = lengths(contours, query.runs)
+        parts: list[tuple[Complex, Floats, Floats, Floats]] = []
+        for run, own in zip(query.runs, length, strict=True):
+            count = round(SAMPLES * own / length.sum())
+            if count < 2:
+                continue
+            course = Course.along(contours, run, count)
+            heading = course.heading
+            step = np.full(count, own / (count if run.closed else count - 1))
+            step[0] = 0.0
+            parts.append((course.points, heading, step, np.diff(heading, prepend=heading[0])))
+        return cls(*(np.concatenate(p) for p in zip(*parts, strict=True)))
+
+
+class Target:
+    """The lines on which targets are looked for: the contours outside the query."""
+
+    def __init__(self, contours: Contours, query: Query):
+        keep = ~query.inside
+        self.index = np.flatnonzero(keep)
+        self.points = contours.points[keep]
+        self.heading = contours.heading[keep]
+        self.spacing = contours.weight[keep]
+        line = contours.line[keep]
+        gap = np.flatnonzero(np.diff(self.index) > 1) + 1
+        begin = np.unique(np.concatenate([[0], np.flatnonzero(np.diff(line)) + 1, gap])).astype(int)
+        self.stretch = np.zeros(len(line), int)
+        self.stretch[begin[1:]] = 1
+        self.stretch = np.cumsum(self.stretch)
+        self.begin = begin
+        self.count = np.diff(np.append(begin, len(line)))
+        whole = self.count == np.diff(contours.first)[line[begin]]
+        self.closed = contours.closed[line[begin]] & whole
+        self.tree = cKDTree(np.stack([self.points.real, self.points.imag], 1))
+
+    def walk(self, start: NDArray[np.intp], offset: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Indices `offset` points along the line from `start`; -1 beyond the end of an open one."""
+        k = self.stretch[start]
+        at = start - self.begin[k] + offset
+        n = self.count[k]
+        out = self.begin[k] + at % n
+        return np.where(self.closed[k] | ((at >= 0) & (at < n)), out, -1)
+
+    def between(self, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
+        """Steps along the line from one point to another of the same line, the shorter way round in a closed one."""
+        k = self.stretch[first]
+        n = np.where(self.closed[k], self.count[k], 10**9)
+        return (second - first + n / 2.0) % n - n / 2.0
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A transformation function and its evidence at the samples.
+
+    Attributes
+    ----------
+    function : TransformationFunction
+    counterpart : (s,) int
+        Index into the target's points of each sample's counterpart, -1 where it has none.
+    distance : (s,) float
+        Distance of counterpart and image, in extents of the query at the target's scale; infinite without counterpart.
+    tilt : (s,) float
+        Unsigned angle between the line's image and the line there, radians.
+    """
+
+    function: TransformationFunction
+    counterpart: NDArray[np.intp]
+    distance: Floats
+    tilt: Floats
+
+
+class Fitter:
+    """Fits many candidates of one query at once."""
+
+    def __init__(self, contours: Contours, query: Query, nodes: Nodes):
+        self.samples = Samples.of(contours, query)
+        self.target = Target(contours, query)
+        self.nodes, self.size = nodes, query.size
+        self.strain, self.bend = smoothness(nodes)
+        self.rows = nodes.rows(self.samples.points)
+        ahead = self.samples.points + 1e-3 * query.size * np.exp(1j * self.samples.heading)
+        self.ahead = nodes.rows(ahead)
+
+    def start(
+        self, source: Complex, image: Complex, weight: Floats, stiffness: tuple[float, float] = (0.3, 0.3)
+    ) -> Complex:
+        """Unknowns (2m,) of the smoothest function through given correspondences (images conjugated where mirrored)."""
+        rows = self.nodes.rows(source)
+        return self._solve(rows, image[None], weight[None], stiffness)[0]
+
+    def _solve(self, rows: Complex, image: Complex, weight: Floats, stiffness: tuple[float, float]) -> Complex:
+        """Weighted least squares with smoothness, for several candidates: (h, s) images and weights to (h, 2m)."""
+        share = weight / np.maximum(weight.sum(1, keepdims=True), 1e-12)
+        left = (rows.conj().T[None] * share[:, None, :]) @ rows
+        left += stiffness[0] * self.strain + stiffness[1] * self.bend + 1e-9 * np.eye(rows.shape[1])
+        right = rows.conj().T[None] @ (share * image)[:, :, None]
+        return np.linalg.solve(left, right)[:, :, 0]
+
+    def fit(self, unknowns: Complex, mirrored: NDArray[np.bool_], rounds=ROUNDS) -> list[Fit]:
+        """Refine candidates.
+
+        Parameters
+        ----------
+        unknowns : (h, 2m) complex
+            Functions to start from.
+        mirrored : (h,) bool
+        rounds : sequence of (float, float)
+            Stiffness of each round.
+        """
+        for stiffness in rounds:
+            at, image, weight, _, _ = self.counterparts(unknowns, mirrored)
+            unknowns = self._solve(self.rows, image, weight + 1e-6, stiffness)
+        at, image, weight, distance, tilt = self.counterparts(unknowns, mirrored)
+        m = len(self.nodes.at)
+        return [
+            Fit(TransformationFunction(self.nodes, u[:m], u[m:], bool(flip)), a, d, t)
+            for u, flip, a, d, t in zip(unknowns, mirrored, at, distance, tilt, strict=True)
+        ]
+
+    def counterparts(self, unknowns: Complex, mirrored: NDArray[np.bool_]):
+        """Counterparts of the samples on the lines near their images, by Viterbi along the query's lines."""
+        s, target = self.samples, self.target
+        image = unknowns @ self.rows.T
+        way = np.angle(unknowns @ self.ahead.T - image)
+        m = len(self.nodes.at)
+        scale = np.abs(unknowns[:, m:]).mean(1)
+        unit = np.maximum(scale * self.size, 1e-12)[:, None]
+        seen = np.where(mirrored[:, None], np.conj(image), image)
+        seen_way = np.where(mirrored[:, None], -way, way)
+        _, near = target.tree.query(np.stack([seen.real, seen.imag], -1), k=24)
+        # the nearest point whose line runs along the image
+        gap = np.abs(target.points[near] - seen[:, :, None]) / unit[:, :, None]
+        skew = np.abs(np.sin(target.heading[near] - seen_way[:, :, None]))
+        pick = np.argmin(gap + 0.05 * skew, axis=2)
+        centre = np.take_along_axis(near, pick[:, :, None], 2)[:, :, 0]
+        stride = np.maximum(1, np.round(0.5 * s.step.max() * scale[:, None] / target.spacing[centre])).astype(int)
+        offset = stride[:, :, None] * np.arange(-BAND, BAND + 1)
+        at = target.walk(np.broadcast_to(centre[:, :, None], offset.shape), offset)
+        point = target.points[at]
+        distance = np.abs(point - seen[:, :, None]) / unit[:, :, None]
+        angle = target.heading[at] - seen_way[:, :, None]
+        tilt = np.abs(np.arcsin(np.clip(np.sin(angle), -1, 1)))
+        cost = DISTANCE * (distance / FAR) ** 2 + np.sin(angle) ** 2 * 0.5
+        cost[at < 0] = np.inf
+        chosen = self._viterbi(cost, at, np.sign(np.cos(angle)), scale, mirrored)
+        h, k = np.indices(chosen.shape)
+        here = at[h, k, chosen]
+        away, skewed = distance[h, k, chosen], tilt[h, k, chosen]
+        missing = chosen < 0
+        here = np.where(missing, -1, here)
+        away = np.where(missing, np.inf, away)
+        weight = np.where(missing, 0.0, 1.0 / (1.0 + (away / FAR) ** 2) ** 2)
+        goal = np.where(mirrored[:, None], np.conj(target.points[here]), target.points[here])
+        return here, goal, weight, away, np.where(missing, np.pi / 2, skewed)
+
+    def _viterbi(self, cost, at, side, scale, mirrored):
+        """Index of the chosen candidate of every sample (h, s); -1: none."""
+        s, target = self.samples, self.target
+        count, length, width = cost.shape
+        missing = float(MISSING)
+        total = np.concatenate([np.minimum(cost[:, 0], 1e6), np.full((count, 1), missing)], 1)
+        back = np.zeros((length, count, width + 1), np.int16)
+        sign = np.where(mirrored, -1.0, 1.0)
+        for i in range(1, length):
+            before, here = at[:, i - 1], at[:, i]
+            if s.step[i] == 0.0:
+                move = np.zeros((count, width, width))
+            else:
+                left, right = target.stretch[before], target.stretch[here]
+                walk = target.between(before[:, :, None], here[:, None, :])
+                arc = walk * target.spacing[before][:, :, None] * side[:, i][:, None, :]
+                stretch = np.log(np.maximum(arc / (s.step[i] * scale)[:, None, None], 0.03))
+                turn = target.heading[here][:, None, :] - target.heading[before][:, :, None]
+                turn = (turn + np.pi) % (2 * np.pi) - np.pi
+                turn = np.where(side[:, i][:, None, :] * side[:, i - 1][:, :, None] > 0, turn, 0.0)
+                miss = sign[:, None, None] * s.turn[i] - turn
+                move = STRETCH * stretch**2 + TURN * np.minimum(miss**2, 2.0)
+                move = np.where(left[:, :, None] == right[:, None, :], np.minimum(move, 4 * CHANGE), CHANGE)
+            full = np.empty((count, width + 1, width + 1))
+            full[:, :-1, :-1] = move
+            full[:, -1, :] = 0.3
+            full[:, :, -1] = 0.3
+            full[:, -1, -1] = 0.0
+            full += total[:, :, None]
+            back[i] = full.argmin(1)
+            total = np.take_along_axis(full, back[i][:, None, :].astype(int), 1)[:, 0]
+            total[:, :-1] += np.minimum(cost[:, i], 1e6)
+            total[:, -1] += missing
+        chosen = np.empty((count, length), int)
+        chosen[:, -1] = total.argmin(1)
+        rows = np.arange(count)
+        for i in range(length - 1, 0, -1):
+            chosen[:, i - 1] = back[i][rows, chosen[:, i]]
+        return np.where(chosen == width, -1, chosen)
