@@ -1,0 +1,317 @@
+"""Fit the table of certainty of placements to real layouts, and report it on layouts that were not fitted.
+
+    GEOANALOGY_DATA=… python benchmarks/placements_calibration.py [--write] [--facades N] [--rounds N]
+
+Reads `cmp_facades`, `bubenec_city` and `r2v_floorplans` below the folder named by GEOANALOGY_DATA. Every layout gives a
+few cases: some rectangles of a label are shown, the others are to be found. Half of the layouts are fitted, the other
+half is reported. With ``--write`` the table is fitted to all and written to `geoanalogy/placements/calibration_table.py`.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import sys
+from collections import defaultdict
+
+import numpy as np
+from scipy.optimize import minimize
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+
+import geoanalogy as ga
+from geoanalogy.placements import calibration, survey
+from geoanalogy.placements.arrangement import arrangement_of
+from geoanalogy.placements.boxes import union_overlap
+from geoanalogy.placements.evidence import AMONG, SINGLE, among_evidence
+from geoanalogy.placements.selection import without_overlaps
+
+TABLE = pathlib.Path(__file__).resolve().parent.parent / "geoanalogy" / "placements" / "calibration_table.py"
+PLACED = ("window", "sill", "balcony", "blind", "cornice", "door", "shop", "deco", "pillar")
+RIGHT = 0.5
+
+
+def ring(box):
+    x0, y0, x1, y1 = box
+    return [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
+
+
+def rectangle(box):
+    x0, y0, x1, y1 = box
+    return ga.Rectangle((x0 + x1) / 2, (y0 + y1) / 2, x1 - x0, y1 - y0)
+
+
+def facade_cases(path, rng):
+    """Cases of one facade: (layout, kind, scene, examples, boxes to find by parent id)."""
+    facade = json.loads(path.read_text())
+    rects = [r for r in facade["rects"] if r["box"][2] > r["box"][0] and r["box"][3] > r["box"][1]]
+    shown = np.array([r["box"] for r in rects if r["label"] == "facade"] or [(0, 0, facade["width"], facade["height"])])
+    whole = (*shown.min(axis=0)[:2], *shown.max(axis=0)[2:])
+    for label in PLACED:
+        boxes = np.array([r["box"] for r in rects if r["label"] == label], float).reshape(-1, 4)
+        counts = [k for k in (1, 2, 4, 6, 10) if len(boxes) >= max(8, k + 4)]
+        if not counts:
+            continue
+        polygons = [ga.Polygon(ring(whole), "facade", "facade", orientation=0.0)]
+        polygons += [
+            ga.Polygon(ring(r["box"]), r["label"], f"{i}", orientation=0.0)
+            for i, r in enumerate(rects)
+            if r["label"] not in ("facade", label)
+        ]
+        scene = ga.Scene(polygons)
+        common = label in ("window", "sill", "blind", "balcony", "cornice")
+        for k in counts if label == "window" else rng.choice([4, 4, 2, 6][: len(counts)], 2 if common else 1):
+            if k not in counts:
+                continue
+            order = rng.permutation(len(boxes))
+            examples, truth = boxes[order[:k]], boxes[order[k:]]
+            truth = truth[(union_overlap(truth, examples) <= 0.3).all(axis=1)]
+            if len(truth):
+                yield path.stem, f"{label} {k}", scene, [(scene, b) for b in examples], truth
+
+
+def row_of_parents(parts, label, gap):
+    """Rooms or plots side by side: polygons and the boxes in them, moved."""
+    x, polygons, boxes = gap, [], []
+    for i, (outline, inner, box) in enumerate(parts):
+        shift = np.array([x, gap]) - np.min(outline, axis=0)
+        polygons.append(ga.Polygon(np.asarray(outline) + shift, label, f"p{i}", orientation=0.0))
+        for j, (points, name) in enumerate(inner):
+            polygons.append(ga.Polygon(np.asarray(points) + shift, name, f"p{i} {j}", parent=f"p{i}", orientation=0.0))
+        boxes.append(np.asarray(box) + np.tile(shift, 2))
+        x += np.ptp(np.asarray(outline)[:, 0]) + gap
+    return ga.Scene(polygons), np.array(boxes)
+
+
+def thin_strip(segment, outline, depth):
+    """An opening as a thin rectangle along the inner side of an outline."""
+    a, b = np.asarray(segment, float)
+    along = (b - a) / np.hypot(*(b - a))
+    inward = np.array([-along[1], along[0]])
+    if np.dot(np.mean(outline, axis=0) - (a + b) / 2, inward) < 0:
+        inward = -inward
+    return [a, b, b + depth * inward, a + depth * inward]
+
+
+def room_cases(path, rng):
+    """Fixtures in rooms: one of each kind per room, lengths in estimated metres."""
+    kinds = {"toilet": "restroom", "bathtub": "bathroom", "washing_basin": "washing_room", "cooking_counter": "kitchen"}
+    rooms = defaultdict(list)
+    for plan in json.loads(path.read_text()):
+        for room in plan["rooms"]:
+            for kind, label in kinds.items():
+                items = [f for f in room["furniture"] if f["label"] == kind]
+                if room["labels"] == [label] and len(items) == 1:
+                    scale = plan["scale_m_per_px"]
+                    outline = np.array(room["polygon"], float) * scale
+                    inner = [
+                        (thin_strip(np.array(s, float) * scale, outline, 0.1), "opening")
+                        for s in room["openings"]
+                        if np.hypot(*(np.subtract(*s))) * scale > 0.05
+                    ]
+                    rooms[kind].append((outline, inner, np.array(items[0]["box"], float).ravel() * scale))
+    for kind, label in kinds.items():
+        order = rng.permutation(len(rooms[kind]))
+        for n, start in enumerate(range(0, len(order) - 8, 8)):
+            k = (2, 4, 6)[n % 3]
+            scene, boxes = row_of_parents([rooms[kind][i] for i in order[start : start + 8 + k]], label, 2.0)
+            yield f"{kind} {start}", f"{kind} {k}", scene, [(scene, b) for b in boxes[:k]], boxes[k:]
+
+
+def plot_cases(path, rng):
+    """Main buildings on plots, turned so that the street front lies below, in metres."""
+    plots = defaultdict(list)
+    for plot in json.loads(path.read_text())["plots"]:
+        if not plot["buildings"]:
+            continue
+        a, b = np.asarray(plot["front"], float)
+        if np.cross(b - a, np.mean(plot["polygon"], axis=0) - a) < 0:
+            a, b = b, a
+        angle = np.arctan2(*(b - a)[::-1])
+        turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        outline, front = np.asarray(plot["polygon"]) @ turn, np.asarray(plot["front"]) @ turn
+        rect = np.asarray(max(plot["buildings"], key=lambda q: q["area"])["rect"]) @ turn
+        sides = rect[1] - rect[0], rect[2] - rect[1]
+        w, h = (np.hypot(*s) for s in sides)
+        if abs(sides[0][0]) < abs(sides[0][1]):
+            w, h = h, w
+        middle = rect.mean(axis=0)
+        box = (*(middle - (w / 2, h / 2)), *(middle + (w / 2, h / 2)))
+        plots[plot["label"]].append((outline, [(thin_strip(front, outline, 0.3), "front")], box))
+    for label, some in plots.items():
+        for n in range(max(2, len(some) // 3)):
+            order = rng.permutation(len(some))[:9]
+            scene, boxes = row_of_parents([some[i] for i in order], label, 5.0)
+            if len(boxes) > 5:
+                yield f"{label} {n}", f"plot {label}", scene, [(scene, b) for b in boxes[:4]], boxes[4:]
+
+
+def collected(cases):
+    """Evidence of every arrangement of every case."""
+    out = []
+    for layout, kind, scene, shown, truth in cases:
+        model = ga.learn_placement([ga.Example(s, rectangle(b)) for s, b in shown])
+        lesson = model.lesson
+        found = []
+        for parent in (p for p in scene.polygons if p.label == model.label):
+            arrangement = arrangement_of(scene, parent, 0.0)
+            drawn = model._drawn(arrangement, model.shown_in(arrangement))[0]
+            here = truth[(union_overlap(truth, arrangement.parent_box[None])[:, 0] > 0)]
+            boxes, quick = survey.glance(lesson, arrangement, drawn)
+            quick_iou = union_overlap(boxes, truth).max(axis=1)
+            some = np.flatnonzero((quick_iou >= 0.4) | (np.arange(len(boxes)) % 8 == 0))
+            seen = survey.survey(lesson, arrangement, drawn, drawn)
+            found.append(
+                {
+                    "quick": quick[some],
+                    "quick_iou": quick_iou[some],
+                    "boxes": seen.boxes,
+                    "single": seen.single,
+                    "among": seen.among,
+                    "present": drawn,
+                    "iou": union_overlap(seen.boxes, truth) if len(seen.boxes) else np.zeros((0, len(truth))),
+                    "truth": len(here),
+                }
+            )
+        out.append({"layout": layout, "kind": kind, "parts": found, "truth": len(truth), "shown": len(shown)})
+    return out
+
+
+def fitted(evidence, right, weight, names, ridge=1e-4):
+    """Weights of a logistic model whose evidence for and against has its sign."""
+    scale = evidence.std(axis=0) + 1e-9
+    z = evidence / scale
+
+    def loss(p):
+        value = z @ p[:-1] + p[-1]
+        error = weight * (1 / (1 + np.exp(-value)) - right) / weight.sum()
+        return (
+            float(
+                (weight * (np.logaddexp(0, value) - right * value)).sum() / weight.sum() + ridge * (p[:-1] ** 2).sum()
+            ),
+            np.append(z.T @ error + 2 * ridge * p[:-1], error.sum()),
+        )
+
+    limits = [
+        (None, 0) if n in calibration.AGAINST else (None, None) if n in calibration.CIRCUMSTANCES else (0, None)
+        for n in names
+    ]
+    solved = minimize(loss, np.zeros(len(names) + 1), jac=True, method="L-BFGS-B", bounds=[*limits, (None, None)])
+    return calibration.Calibration(names, solved.x[:-1] / scale, float(solved.x[-1]))
+
+
+def fit(cases):
+    """The three models."""
+    stack = lambda key: np.concatenate([p[key] for c in cases for p in c["parts"]])  # noqa: E731
+    weigh = lambda key: np.concatenate(  # noqa: E731
+        [np.full(len(p[key]), min(1 / c["truth"], 0.1)) for c in cases for p in c["parts"]]
+    )
+    glance = fitted(stack("quick"), (stack("quick_iou") >= RIGHT) * 1.0, weigh("quick"), SINGLE)
+    right = np.concatenate([(p["iou"].max(axis=1, initial=0.0) >= RIGHT) * 1.0 for c in cases for p in c["parts"]])
+    first = np.hstack([stack("single"), stack("among")])
+    look = fitted(first, right, weigh("boxes"), SINGLE + AMONG)
+    for c in cases:
+        settle_evidence(c, look)
+    settle = fitted(np.hstack([first, stack("settled")]), right, weigh("boxes"), SINGLE + AMONG + calibration.SETTLED)
+    return glance, look, settle
+
+
+def settle_evidence(case, look):
+    for p in case["parts"]:
+        first = np.hstack([p["single"], p["among"]])
+        p["settled"] = np.hstack(
+            [look.value(first)[:, None], among_evidence(p["boxes"], look.certainty(first), p["present"])]
+        )
+
+
+def f1(case, settle, cuts):
+    """F1 of a case at several cuts of the certainty, and of the best cut; its share of found boxes among all."""
+    kept, iou = [], []
+    for p in case["parts"]:
+        certainty = settle.certainty(np.hstack([p["single"], p["among"], p["settled"]]))
+        index = without_overlaps(p["boxes"], certainty, p["present"], 0.15)
+        kept.append(certainty[index])
+        iou.append(p["iou"][index])
+    kept, iou = np.concatenate(kept), np.concatenate(iou)
+    order = np.argsort(-kept, kind="stable")
+    kept, iou = kept[order], iou[order]
+    free = np.ones(case["truth"], bool)
+    hits = np.zeros(len(kept))
+    for i in range(len(kept)):
+        best = np.argmax(np.where(free, iou[i], 0))
+        if free[best] and iou[i, best] >= RIGHT:
+            free[best], hits[i] = False, 1
+    curve = 2 * np.cumsum(hits) / (np.arange(len(kept)) + 1 + case["truth"])
+    at = [float(curve[(kept >= c).sum() - 1]) if (kept >= c).any() else 0.0 for c in cuts]
+    reach = np.concatenate([p["iou"] for p in case["parts"]])
+    return [*at, float(curve.max(initial=0.0)), float((reach.max(axis=0, initial=0.0) >= RIGHT).mean())]
+
+
+def report(title, cases, models):
+    cuts = (0.2, 0.3, 0.4, 0.5)
+    rows = defaultdict(list)
+    for case in cases:
+        settle_evidence(case, models[1])
+        rows[case["kind"]].append(f1(case, models[2], cuts))
+    print(f"{title}: mean F1 by cut, of the best cut, and share of boxes among the candidates")
+    print(f"  {'':18s} cases  " + "  ".join(f"{c:5.2f}" for c in cuts) + "   best  reach")
+    for kind in sorted(rows):
+        print(f"  {kind:18s} {len(rows[kind]):5d}  " + "  ".join(f"{v:5.3f}" for v in np.mean(rows[kind], axis=0)))
+
+
+def written(models):
+    rows = [
+        '"""Weights of the three logistic models of `calibration`, by the name of the evidence; written by the benchmark."""',
+        "",
+        "TABLE: dict[str, dict[str, float]] = {",
+    ]
+    for stage, model in zip(("glance", "look", "settle"), models, strict=True):
+        rows += [f'    "{stage}": {{', f'        "offset": {model.offset:.4f},']
+        rows += [f'        "{n}": {w:.4f},' for n, w in zip(model.names, model.weights, strict=True) if abs(w) >= 5e-4]
+        rows.append("    },")
+    TABLE.write_text("\n".join([*rows, "}", ""]))
+
+
+def use(models):
+    survey.GLANCE, survey.LOOK, survey.SETTLE = models
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--facades", type=int, help="at most so many")
+    parser.add_argument("--rounds", type=int, default=2, help="how often candidates are collected anew")
+    parser.add_argument("--write", action="store_true")
+    parser.add_argument("--seed", type=int, default=5)
+    args = parser.parse_args()
+    root = os.environ.get("GEOANALOGY_DATA")
+    if not root or not pathlib.Path(root, "cmp_facades").is_dir():
+        print("GEOANALOGY_DATA names no folder with cmp_facades: nothing is calibrated")
+        return
+    root = pathlib.Path(root)
+    paths = sorted((root / "cmp_facades" / "dev").glob("*.json"))
+    if args.facades:
+        paths = paths[:: max(1, len(paths) // args.facades)]
+
+    def cases():
+        rng = np.random.default_rng(args.seed)
+        for path in paths:
+            yield from facade_cases(path, rng)
+        yield from room_cases(root / "r2v_floorplans" / "dev" / "plans.json", rng)
+        yield from plot_cases(root / "bubenec_city" / "dev" / "scene.json", rng)
+
+    for turn in range(args.rounds):
+        every = collected(cases())
+        layouts = sorted({c["layout"] for c in every})
+        some = set(layouts[::2])
+        models = fit([c for c in every if c["layout"] in some])
+        report(f"round {turn + 1}, fitted half", [c for c in every if c["layout"] in some], models)
+        report(f"round {turn + 1}, other half", [c for c in every if c["layout"] not in some], models)
+        sys.stdout.flush()
+        models = fit(every)
+        use(models)
+    if args.write:
+        written(models)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,192 @@
+"""What surrounds a placement: a parent polygon and everything in it, in the parent's frame (section 5.6)."""
+
+import hashlib
+from collections import defaultdict
+from dataclasses import dataclass
+from functools import cached_property
+from weakref import WeakKeyDictionary
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from ..geometry.polygon import Polygon
+from ..geometry.scene import Scene
+from ..relations.elements import Elements
+from ..tolerances import PARALLEL_SHARE
+from .boxes import gaps_between
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """A parent polygon and the polygons below it, as boxes in a frame.
+
+    Everything below the parent counts, not its children alone: drawn objects nest by accident (a window that lies
+    within a shutter), and the elements of every label are cut down to the nearest few anyway.
+
+    Attributes
+    ----------
+    parent : Polygon
+    members : tuple of Polygon
+        Children of the parent, what straddles its boundary, and their children.
+    frame : float
+        Direction in radians of the x axis of all boxes.
+    """
+
+    parent: Polygon
+    members: tuple[Polygon, ...]
+    frame: float
+
+    def turned(self, points: Array) -> Array:
+        """Points in the frame.
+
+        Parameters
+        ----------
+        points : ndarray of shape (..., 2)
+            Scene coordinates.
+
+        Returns
+        -------
+        ndarray of shape (..., 2)
+        """
+        c, s = np.cos(self.frame), np.sin(self.frame)
+        return points @ np.array([[c, -s], [s, c]])
+
+    def unturned(self, points: Array) -> Array:
+        """Points of the frame in scene coordinates: the inverse of `turned`.
+
+        Parameters
+        ----------
+        points : ndarray of shape (..., 2)
+
+        Returns
+        -------
+        ndarray of shape (..., 2)
+        """
+        c, s = np.cos(self.frame), np.sin(self.frame)
+        return points @ np.array([[c, s], [-s, c]])
+
+    def _box(self, polygon: Polygon) -> Array:
+        ring = self.turned(polygon.points)
+        return np.hstack([ring.min(axis=0), ring.max(axis=0)])
+
+    @cached_property
+    def parent_box(self) -> Array:
+        """(x0, y0, x1, y1) of the parent in the frame."""
+        return self._box(self.parent)
+
+    @cached_property
+    def drawn(self) -> dict[str, Array]:
+        """Boxes (n, 4) of the members in the frame, by label."""
+        of = defaultdict(list)
+        for polygon in self.members:
+            of[polygon.label].append(self._box(polygon))
+        return {label: np.array(of[label]) for label in sorted(of)}
+
+    @cached_property
+    def boxes(self) -> dict[str, Array]:
+        """`drawn`, and the gaps between neighbours as elements under labels of their own."""
+        return self.drawn | gaps_between(self.drawn)
+
+    @cached_property
+    def outlines(self) -> dict[str, Elements]:
+        """Elements with segments and corners by role.
+
+        Those of the parent, and those of members that are no rectangles in the frame. A rectangle's segments and
+        corners say nothing that its box coordinates do not.
+        """
+        of: dict[str, list[Polygon]] = defaultdict(list)
+        for polygon, whole in zip(self.members, self._rectangular, strict=True):
+            if not whole:
+                of[polygon.label].append(polygon)
+        groups = {PARENT: Elements.of([self.parent], self.frame)}
+        return groups | {f"{OUTLINE}{label}": Elements.of(of[label], self.frame) for label in sorted(of)}
+
+    @cached_property
+    def _rectangular(self) -> list[bool]:
+        return [self._fills_box(p) for p in self.members]
+
+    def _fills_box(self, polygon: Polygon) -> bool:
+        x0, y0, x1, y1 = self._box(polygon)
+        return polygon.area >= PARALLEL_SHARE * (x1 - x0) * (y1 - y0)
+
+    @cached_property
+    def parent_fills_box(self) -> bool:
+        """Whether the parent is a rectangle in the frame."""
+        return self._fills_box(self.parent)
+
+    def share_outside(self, boxes: Array) -> Array:
+        """Share of each box's area that lies outside the parent.
+
+        Parameters
+        ----------
+        boxes : ndarray of shape (n, 4)
+
+        Returns
+        -------
+        ndarray of shape (n,)
+        """
+        size = np.prod(boxes[:, 2:] - boxes[:, :2], axis=1)
+        if self.parent_fills_box:
+            low = np.maximum(boxes[:, :2], self.parent_box[:2])
+            high = np.minimum(boxes[:, 2:], self.parent_box[2:])
+            inside = np.prod(np.clip(high - low, 0.0, None), axis=1)
+        else:
+            shape = shapely.Polygon(
+                self.turned(self.parent.points), [self.turned(np.asarray(h)) for h in self.parent.holes]
+            )
+            inside = shapely.area(shapely.intersection(shapely.box(*boxes.T), shape))
+        return np.clip(1.0 - inside / size, 0.0, 1.0)
+
+    @cached_property
+    def fingerprint(self) -> str:
+        """A digest of the parent, its members and where they are: equal for equal drawings in any order of elements."""
+        rows = sorted(
+            (p.label, np.roll(p.points, -int(np.lexsort(p.points.T)[0]), axis=0).tobytes()) for p in self.members
+        )
+        first = np.roll(self.parent.points, -int(np.lexsort(self.parent.points.T)[0]), axis=0)
+        digest = hashlib.sha256(repr((self.parent.label, first.tobytes(), rows)).encode())
+        return digest.hexdigest()[:32]
+
+
+#: Name of the group of the parent's own segments, corners and boundary.
+PARENT = "parent"
+#: Prefix of the groups of the outlines of members that are no rectangles.
+OUTLINE = "outline of "
+
+
+_known: WeakKeyDictionary[Scene, dict[tuple[str, float], Arrangement]] = WeakKeyDictionary()
+
+
+def arrangement_of(scene: Scene, parent: Polygon, frame: float) -> Arrangement:
+    """The arrangement below a polygon; kept as long as the scene, which never changes.
+
+    Parameters
+    ----------
+    scene : Scene
+    parent : Polygon
+    frame : float
+        Direction in radians of the boxes' x axis.
+
+    Returns
+    -------
+    Arrangement
+    """
+    kept = _known.setdefault(scene, {})
+    key = (str(parent.id), frame)
+    if key not in kept:
+        kept[key] = Arrangement(parent, tuple(_below(scene, parent)), frame)
+    return kept[key]
+
+
+def _below(scene: Scene, parent: Polygon) -> list[Polygon]:
+    found: dict[str, Polygon] = {}
+    waiting = [parent]
+    while waiting:
+        for member in scene.members_of(str(waiting.pop().id)):
+            if str(member.id) not in found and member.id != parent.id:
+                found[str(member.id)] = member
+                waiting.append(member)
+    return list(found.values())

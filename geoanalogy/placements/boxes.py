@@ -1,0 +1,94 @@
+"""Arithmetic on axis-parallel boxes (x0, y0, x1, y1) in arrays of shape (n, 4)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+#: Share of the smaller of two neighbours' extents that must lie abreast for a gap to be between them.
+ABREAST = 0.5
+
+
+def areas(boxes: Array) -> Array:
+    """Area of each box, shape (n,)."""
+    return (boxes[..., 2] - boxes[..., 0]) * (boxes[..., 3] - boxes[..., 1])
+
+
+def shared_areas(a: Array, b: Array) -> Array:
+    """Area shared by each pair of boxes, shape (n, m)."""
+    x = np.minimum(a[:, None, 2], b[None, :, 2]) - np.maximum(a[:, None, 0], b[None, :, 0])
+    y = np.minimum(a[:, None, 3], b[None, :, 3]) - np.maximum(a[:, None, 1], b[None, :, 1])
+    return np.clip(x, 0.0, None) * np.clip(y, 0.0, None)
+
+
+def overlap(a: Array, b: Array) -> Array:
+    """Shared area over the smaller area of each pair, shape (n, m)."""
+    return shared_areas(a, b) / np.minimum(areas(a)[:, None], areas(b)[None])
+
+
+def union_overlap(a: Array, b: Array) -> Array:
+    """Shared area over the area of the union of each pair, shape (n, m)."""
+    shared = shared_areas(a, b)
+    return shared / (areas(a)[:, None] + areas(b)[None] - shared)
+
+
+def interval_overlap(a: Array, b: Array, axis: int) -> Array:
+    """Shared length over the length of the union of each pair of extents along an axis, shape (n, m)."""
+    shared = np.minimum(a[:, None, axis + 2], b[None, :, axis + 2]) - np.maximum(a[:, None, axis], b[None, :, axis])
+    union = np.maximum(a[:, None, axis + 2], b[None, :, axis + 2]) - np.minimum(a[:, None, axis], b[None, :, axis])
+    return np.clip(shared, 0.0, None) / union
+
+
+def distances(a: Array, b: Array) -> Array:
+    """How far apart each pair of boxes is, shape (n, m).
+
+    The gap between them, and a quarter of the way between their centres: it orders the elements that overlap a box,
+    whose gap is zero.
+    """
+    gap = np.maximum(np.maximum(b[None, :, :2] - a[:, None, 2:], a[:, None, :2] - b[None, :, 2:]), 0.0)
+    way = (a[:, None, :2] + a[:, None, 2:] - b[None, :, :2] - b[None, :, 2:]) / 2
+    return np.hypot(gap[..., 0], gap[..., 1]) + 0.25 * np.hypot(way[..., 0], way[..., 1])
+
+
+def gaps_between(drawn: dict[str, Array]) -> dict[str, Array]:
+    """The gaps between neighbours, as elements: what lies "between A and B" has relations to their gap.
+
+    For every box the nearest box to its right that stands abreast, and the nearest above it that does.
+
+    Parameters
+    ----------
+    drawn : dict of str to ndarray of shape (n, 4)
+        Boxes by label.
+
+    Returns
+    -------
+    dict of str to ndarray of shape (n, 4)
+        Gaps by the label "between A and B", A and B in alphabetical order, so that mirroring changes no label.
+    """
+    labels = np.array([label for label, boxes in drawn.items() for _ in boxes])
+    if len(labels) < 2:
+        return {}
+    every = np.concatenate(list(drawn.values()))
+    found: dict[str, list[Array]] = {}
+    for axis in (0, 1):
+        across = 1 - axis
+        extent = every[:, across + 2] - every[:, across]
+        shared = np.minimum(every[:, None, across + 2], every[None, :, across + 2]) - np.maximum(
+            every[:, None, across], every[None, :, across]
+        )
+        way = every[None, :, axis] - every[:, None, axis + 2]
+        abreast = (shared >= ABREAST * np.minimum(extent[:, None], extent[None])) & (way > 0)
+        way = np.where(abreast, way, np.inf)
+        # Neighbours in both senses: nearest seen from either side, so that mirroring the drawing keeps the pairs.
+        mutual = (way <= way.min(axis=1, keepdims=True)) & (way <= way.min(axis=0, keepdims=True)) & abreast
+        for i, j in zip(*np.nonzero(mutual), strict=True):
+            gap = np.empty(4)
+            gap[[axis, axis + 2]] = every[i, axis + 2], every[j, axis]
+            gap[across] = max(every[i, across], every[j, across])
+            gap[across + 2] = min(every[i, across + 2], every[j, across + 2])
+            found.setdefault(f"{BETWEEN}{' and '.join(sorted((labels[i], labels[j])))}", []).append(gap)
+    return {label: np.array(found[label]) for label in sorted(found)}
+
+
+#: Prefix of the labels of gaps.
+BETWEEN = "between "

@@ -1,0 +1,240 @@
+"""Candidate placements (section 5.5), from exact intersections instead of a grid.
+
+The thesis looks for the maxima of each sample's score on a dense grid and joins pairs of maxima to boxes. On a box's
+edges those maxima lie where level sets of box coordinates cross: at the place that an element of the target predicts
+for the low and the high edge, along x and along y, from the same element's counterpart around an example. These places
+are computed as they are, without a grid: each element of the target, for each way of keeping a coordinate (from the
+minimum, the maximum or the centre, each side from its own side, or as shares), predicts an extent along x and one along
+y, and every two of them make a box. Extents that many elements predict are crossed with each other, whatever element
+they came from: a window stands in the column of a balcony and the row of a cornice.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .arrangement import PARENT, Arrangement
+from .lesson import Lesson
+from .signature import BOX, PARENT_BOX
+
+Array = NDArray[np.float64]
+
+#: Cell in which two candidates are one, as a share of the examples' mean size: smaller than what the score can tell.
+CANDIDATE_CELL = 0.08
+#: The same for extents that are counted.
+EXTENT_CELL = 0.15
+#: How many of the most predicted extents are crossed, along x and along y.
+CROSSED = (30, 20)
+#: Largest factor by which a candidate's side may differ from all the examples'.
+LARGEST_STRETCH = 3.0
+
+
+def extents(values: Array, low: Array, high: Array) -> Array:
+    """Extents along one axis that elements predict.
+
+    Parameters
+    ----------
+    values : ndarray of shape (m, 3, 4)
+        Box coordinates of m examples along the axis, relative to their counterpart elements.
+    low, high : ndarray of shape (e,)
+        Extents of the target's elements.
+
+    Returns
+    -------
+    ndarray of shape (m, e, 5, 2)
+        Low and high edge, for each way of keeping the coordinates.
+    """
+    origin = np.stack([low, high, (low + high) / 2], axis=1)  # (e, 3)
+    kept = origin[None, :, :, None] + np.stack([values[:, 0, :3], values[:, 2, :3]], axis=-1)[:, None]
+    sides = np.stack([low[None] + values[:, 0, :1], high[None] + values[:, 2, 1:2]], axis=-1)[:, :, None]
+    share = np.stack([values[:, 0, 3], values[:, 2, 3]], axis=-1)[:, None]
+    shares = (low[:, None] + (high - low)[:, None] * share)[:, :, None]
+    return np.concatenate([kept, sides, shares], axis=2)
+
+
+def crossings(x: Array, y: Array) -> Array:
+    """Boxes of every two extents of the same example and element.
+
+    Parameters
+    ----------
+    x : ndarray of shape (..., a, 2)
+    y : ndarray of shape (..., b, 2)
+
+    Returns
+    -------
+    ndarray of shape (n, 4)
+    """
+    shape = (*x.shape[:-2], x.shape[-2], y.shape[-2])
+    x = np.broadcast_to(x[..., :, None, :], (*shape, 2)).reshape(-1, 2)
+    y = np.broadcast_to(y[..., None, :, :], (*shape, 2)).reshape(-1, 2)
+    return np.stack([x[:, 0], y[:, 0], x[:, 1], y[:, 1]], axis=1)
+
+
+def predicted(lesson: Lesson, arrangement: Arrangement) -> Array:
+    """Boxes that the target's elements predict from the element of their label nearest to each example.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    arrangement : Arrangement
+        The target.
+
+    Returns
+    -------
+    ndarray of shape (n, 4)
+        In the arrangement's frame; some are turned inside out.
+    """
+    found = [_from_parent(lesson, arrangement)]
+    for label in lesson.labels:
+        elements = arrangement.boxes.get(label)
+        values = lesson.kept.boxes[BOX + label][lesson.positive, 0]
+        values = values[np.isfinite(values[:, 0, 0, 0])]
+        if elements is None or not len(values):
+            continue
+        x, y = (extents(values[:, axis], elements[:, axis], elements[:, axis + 2]) for axis in (0, 1))
+        found.append(crossings(x, y))
+    return np.concatenate(found)
+
+
+def _from_parent(lesson: Lesson, arrangement: Arrangement) -> Array:
+    """Boxes from the parent's own box and corners, in all eight ways that a room can be turned and mirrored.
+
+    Which of them is meant is for the score to say: relations to segments and corners are assigned one to one, whatever
+    side they are on (section 5.3).
+    """
+    values = lesson.kept.boxes[PARENT_BOX][lesson.positive, 0]
+    low, high = arrangement.parent_box[None, :2], arrangement.parent_box[None, 2:]
+    flipped = _flipped(values)
+    found = []
+    for along_x, along_y in ((0, 1), (1, 0)):
+        x = [extents(v[:, along_x], low[:, 0], high[:, 0]) for v in (values, flipped)]
+        y = [extents(v[:, along_y], low[:, 1], high[:, 1]) for v in (values, flipped)]
+        found.append(crossings(np.concatenate(x, axis=2), np.concatenate(y, axis=2)))
+    if not arrangement.parent_fills_box:
+        corners = arrangement.turned(arrangement.outlines[PARENT].corner_vertex)
+        # The distances to the nearer side of the own parent, kept from every corner, into all four quadrants.
+        near = np.where(
+            (np.abs(values[:, :, 0, 0]) <= np.abs(values[:, :, 2, 1]))[..., None],
+            values[:, :, [0, 2], 0],
+            flipped[:, :, [0, 2], 0],
+        )
+        for order in ((0, 1), (1, 0)):
+            ways = [np.stack([s, s[..., ::-1] * -1], axis=1) for s in (near[:, order[0]], near[:, order[1]])]
+            x, y = (corners[None, :, None, None, axis] + ways[axis][:, None] for axis in (0, 1))
+            found.append(crossings(x, y))
+    return np.concatenate(found)
+
+
+def _flipped(values: Array) -> Array:
+    """Box coordinates (..., 3, 4) of the mirrored box."""
+    turned = values[..., ::-1, :]
+    return np.stack([-turned[..., 1], -turned[..., 0], -turned[..., 2], 1.0 - turned[..., 3]], axis=-1)
+
+
+def most_predicted(low: Array, high: Array, cell: float, count: int) -> Array:
+    """The extents predicted most often.
+
+    Parameters
+    ----------
+    low, high : ndarray of shape (n,)
+        From the parent's centre, so that a mirrored drawing has mirrored cells.
+    cell : float
+        Extents in the same cell of this size are one.
+    count : int
+
+    Returns
+    -------
+    ndarray of shape (at most count, 2)
+        Their mean low and high edges.
+    """
+    keys = np.round(np.stack([low, high], axis=1) / cell).astype(np.int64)
+    _, group, number = np.unique(_mixed(keys), return_inverse=True, return_counts=True)
+    mean = np.stack([np.bincount(group, low), np.bincount(group, high)], axis=1) / number[:, None]
+    return mean[np.argsort(-number, kind="stable")[:count]]
+
+
+def distinct(boxes: Array, cell: Array) -> Array:
+    """One box of each cell of a grid in (x0, y0, x1, y1): the one nearest to the cell's mean.
+
+    Parameters
+    ----------
+    boxes : ndarray of shape (n, 4)
+        From the parent's centre, so that a mirrored drawing has mirrored cells.
+    cell : ndarray of shape (4,)
+
+    Returns
+    -------
+    ndarray of shape (m, 4)
+    """
+    keys = np.round(boxes / cell).astype(np.int64)
+    _, group, number = np.unique(_mixed(keys), return_inverse=True, return_counts=True)
+    mean = np.stack([np.bincount(group, column) for column in boxes.T], axis=1) / number[:, None]
+    off = np.abs(boxes - mean[group]).sum(axis=1)
+    order = np.lexsort((off, group))
+    return boxes[order[np.concatenate([[0], np.cumsum(number)[:-1]])]] if len(boxes) else boxes
+
+
+def _mixed(keys: NDArray[np.int64]) -> NDArray[np.int64]:
+    """One integer per row of cell numbers; rows that differ collide only across the whole range of int64."""
+    mixed = np.zeros(len(keys), dtype=np.int64)
+    for column in keys.T:
+        mixed = mixed * 1000003 + column
+    return mixed
+
+
+def proposals(lesson: Lesson, arrangement: Arrangement, present: Array) -> Array:
+    """Every candidate that is worth a look.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    arrangement : Arrangement
+        The target.
+    present : ndarray of shape (m, 4)
+        Positive examples that were drawn in this very arrangement.
+
+    Returns
+    -------
+    ndarray of shape (n, 4)
+        With positive sides, of about the examples' size; in the arrangement's frame.
+    """
+    centre = np.tile((arrangement.parent_box[:2] + arrangement.parent_box[2:]) / 2, 2)
+    found = predicted(lesson, arrangement) - centre
+    if lesson.options.mirrored:
+        found = np.hstack([np.minimum(found[:, :2], found[:, 2:]), np.maximum(found[:, :2], found[:, 2:])])
+    sizes = lesson.sizes[lesson.positive]
+    found = found[_plausible(found, sizes)]
+    size = sizes.mean(axis=0)
+    cell = CANDIDATE_CELL * np.tile(size, 2)
+    found = distinct(found, cell)
+    return distinct(np.concatenate([found, crossed(found, present - centre, size)]), cell) + centre
+
+
+def crossed(boxes: Array, present: Array, size: Array) -> Array:
+    """The most predicted extents along x crossed with those along y, and with those of the examples there.
+
+    Parameters
+    ----------
+    boxes : ndarray of shape (n, 4)
+    present : ndarray of shape (m, 4)
+    size : ndarray of shape (2,)
+        The examples' mean.
+
+    Returns
+    -------
+    ndarray of shape (k, 4)
+    """
+    x, y = (
+        np.concatenate(
+            [
+                present[:, [axis, axis + 2]],
+                most_predicted(boxes[:, axis], boxes[:, axis + 2], EXTENT_CELL * size[axis], CROSSED[axis]),
+            ]
+        )
+        for axis in (0, 1)
+    )
+    return crossings(x, y)
+
+
+def _plausible(boxes: Array, sizes: Array) -> NDArray[np.bool_]:
+    size = boxes[:, 2:] - boxes[:, :2]
+    return ((size > sizes.min(axis=0) / LARGEST_STRETCH) & (size < sizes.max(axis=0) * LARGEST_STRETCH)).all(axis=1)

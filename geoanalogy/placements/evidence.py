@@ -1,0 +1,178 @@
+"""The evidence for a candidate: a few figures between 0 and 1 that follow from its relations."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .arrangement import Arrangement
+from .boxes import interval_overlap, overlap
+from .lesson import Lesson, Match, coverage
+
+Array = NDArray[np.float64]
+
+#: The figures of a single candidate, in the order of their columns.
+SINGLE = (
+    "similarity",  # to the most similar example
+    "mean similarity",
+    "against cohesion",  # similarity over what examples have with each other
+    "best anchor",  # agreement with the group that agrees best, times its reliability
+    "anchors",  # mean agreement of all groups, by reliability
+    "missed anchor",  # largest reliability times disagreement
+    "along x",
+    "along y",
+    "best along x",
+    "best along y",
+    "missed along x",
+    "missed along y",
+    "shape",  # logarithmic difference in size to the example most alike
+    "mean shape",
+    "covered",  # more of it is covered by elements of some label than of any example
+    "uncovered",
+    "touched",  # it covers more of some element than any example does
+    "outside",  # more of it lies outside the parent
+    "row",  # shares its extent along y with an example drawn here
+    "column",
+    "row and column",
+    "mean row",
+    "mean column",
+    "absent",  # no example was drawn here
+    "reliability",  # of the examples' best group; the same for all candidates
+    "reliability along x",
+    "reliability along y",
+    "cohesion",
+    "number",  # logarithm of the number of examples
+)
+
+#: The figures of a candidate among the others of its arrangement.
+AMONG = (
+    "relative",  # similarity over the largest one
+    "local",  # similarity over the largest one among those it overlaps
+    "row support",  # similarity of the best candidates in its row
+    "column support",
+)
+
+
+def single_evidence(
+    lesson: Lesson,
+    arrangement: Arrangement,
+    boxes: Array,
+    matches: dict[str, Match],
+    present: Array,
+) -> Array:
+    """The figures of `SINGLE`.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    arrangement : Arrangement
+    boxes : ndarray of shape (n, 4)
+    matches : dict of str to Match
+        Of the boxes with all examples.
+    present : ndarray of shape (m, 4)
+        Positive examples drawn in this arrangement.
+
+    Returns
+    -------
+    ndarray of shape (n, len(SINGLE))
+    """
+    p = lesson.positive
+    n = len(boxes)
+    similarity = lesson.similarities(matches)[:, p]
+    keys = list(matches)
+    reliable = np.array([lesson.reliability[key] for key in keys])
+    joint = np.stack([matches[key].joint[:, p].max(axis=1) for key in keys], axis=1)
+    of_boxes = [i for i, key in enumerate(keys) if matches[key].along_x is not None]
+    x, y = (
+        np.stack([getattr(matches[keys[i]], name)[:, p].max(axis=1) for i in of_boxes], axis=1)
+        for name in ("along_x", "along_y")
+    )
+    rx, ry, rj = reliable[of_boxes, 0], reliable[of_boxes, 1], reliable[:, 2]
+    size = np.log(boxes[:, 2:] - boxes[:, :2])
+    taught_size = np.log(lesson.sizes[p])
+    covered, uncovered, touched = _overlaps(lesson, arrangement, boxes)
+    outside = arrangement.share_outside(boxes) - max(lesson.taught[i].outside for i in p)
+    rows = columns = np.zeros((n, 1))
+    if len(present):
+        rows, columns = interval_overlap(boxes, present, 1), interval_overlap(boxes, present, 0)
+    best = similarity.max(axis=1)
+    figures = {
+        "similarity": best,
+        "mean similarity": similarity.mean(axis=1),
+        "against cohesion": np.minimum(best / max(lesson.cohesion, 0.05), 2.0),
+        "best anchor": (joint * rj).max(axis=1),
+        "anchors": joint @ rj / max(rj.sum(), 1e-9),
+        "missed anchor": ((1 - joint) * rj).max(axis=1),
+        "along x": x @ rx**2 / max((rx**2).sum(), 1e-9),
+        "along y": y @ ry**2 / max((ry**2).sum(), 1e-9),
+        "best along x": (x * rx).max(axis=1),
+        "best along y": (y * ry).max(axis=1),
+        "missed along x": ((1 - x) * rx).max(axis=1),
+        "missed along y": ((1 - y) * ry).max(axis=1),
+        "shape": np.minimum(np.hypot(*(size[:, None] - taught_size[None]).T).T.min(axis=1), 1.0),
+        "mean shape": np.minimum(np.hypot(*(size - taught_size.mean(axis=0)).T), 1.0),
+        "covered": covered,
+        "uncovered": uncovered,
+        "touched": touched,
+        "outside": np.clip(outside, 0.0, 1.0),
+        "row": rows.max(axis=1),
+        "column": columns.max(axis=1),
+        "row and column": np.minimum(rows.max(axis=1), columns.max(axis=1)),
+        "mean row": rows.mean(axis=1),
+        "mean column": columns.mean(axis=1),
+        "absent": np.full(n, float(not len(present))),
+        "reliability": np.full(n, rj.max()),
+        "reliability along x": np.full(n, rx.max()),
+        "reliability along y": np.full(n, ry.max()),
+        "cohesion": np.full(n, lesson.cohesion),
+        "number": np.full(n, np.log(len(p))),
+    }
+    return np.stack([figures[name] for name in SINGLE], axis=1)
+
+
+def _overlaps(lesson: Lesson, arrangement: Arrangement, boxes: Array) -> tuple[Array, Array, Array]:
+    """How much more and less boxes are covered, and touch elements, than any positive example: sums over labels."""
+    covered, touched = coverage(arrangement, boxes)
+    more, less, hit = (np.zeros(len(boxes)) for _ in range(3))
+    taught = [lesson.taught[i] for i in lesson.positive]
+    for label, share in covered.items():
+        known = [t.covered.get(label, 0.0) for t in taught]
+        more += np.maximum(share - max(known), 0.0)
+        less += np.maximum(min(known) - share, 0.0)
+        hit += np.maximum(touched[label] - max(t.touched.get(label, 0.0) for t in taught), 0.0)
+    return np.minimum(more, 1.5), np.minimum(less, 1.5), np.minimum(hit, 1.5)
+
+
+#: Shared length over united length from which two extents are the same row or column.
+ALIGNED = 0.75
+#: Overlap from which two candidates exclude each other.
+EXCLUDING = 0.1
+#: How many of the best candidates support a row or a column.
+SUPPORTERS = 4
+
+
+def among_evidence(boxes: Array, strength: Array, present: Array) -> Array:
+    """The figures of `AMONG`, with any strength in place of the similarity.
+
+    Parameters
+    ----------
+    boxes : ndarray of shape (n, 4)
+    strength : ndarray of shape (n,)
+        How good each candidate is by itself, not negative.
+    present : ndarray of shape (m, 4)
+        Examples drawn in this arrangement; they are as strong as the best.
+
+    Returns
+    -------
+    ndarray of shape (n, len(AMONG))
+    """
+    top = max(float(strength.max(initial=0.0)), 1e-9)
+    apart = overlap(boxes, boxes) <= EXCLUDING
+    local = strength / np.maximum(np.where(apart, 0.0, strength[None]).max(axis=1), 1e-9)
+    supports = []
+    every = np.concatenate([boxes, present])
+    force = np.concatenate([strength, np.full(len(present), top)])
+    free = np.hstack([apart, overlap(boxes, present) <= EXCLUDING]) if len(present) else apart
+    for axis in (1, 0):
+        aligned = (interval_overlap(boxes, every, axis) >= ALIGNED) & free
+        best = np.sort(np.where(aligned, force[None], 0.0), axis=1)[:, ::-1][:, :SUPPORTERS]
+        supports.append(best.sum(axis=1) / SUPPORTERS / top)
+    return np.stack([strength / top, local, *supports], axis=1)

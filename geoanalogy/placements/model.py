@@ -1,0 +1,329 @@
+"""Learning a placement from examples, and placing (chapter 5): the public face of the engine."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from ..geometry.polygon import Polygon
+from ..geometry.rectangle import Rectangle
+from ..geometry.scene import Scene
+from ..progress import Progress, Stepper, run
+from ..tolerances import PARALLEL_ANGLE
+from .arrangement import Arrangement, arrangement_of
+from .examples import Example, Orientation, checked, nearest_directions, orientation_of, parents_of
+from .lesson import Lesson, Taught, coverage, teach
+from .options import PlacementOptions
+from .regression import predicted_targets
+from .selection import shape_factor, without_overlaps
+from .signature import Signature
+from .survey import Survey, survey
+
+Array = NDArray[np.float64]
+
+#: What a stored model calls its form.
+SCHEMA = "geoanalogy.placement/1"
+
+
+@dataclass(frozen=True)
+class Placement:
+    """One result.
+
+    Attributes
+    ----------
+    rectangle : Rectangle
+        In the scene's coordinates; its width runs along its angle as the examples' do.
+    score : float
+        1 for an example, 0 for what resembles none; comparable between scenes.
+    parent : Polygon
+    novelty : float
+        How far from anything that was taught, 0 to 1: where it is large, an example more would help.
+    """
+
+    rectangle: Rectangle
+    score: float
+    parent: Polygon
+    novelty: float
+
+
+class PlacementModel:
+    """A learned placement: it holds all it needs, no scenes.
+
+    Made by `learn_placement` or `from_dict`.
+
+    Parameters
+    ----------
+    label : str
+        Label of the polygons that placements are made in.
+    orientation : Orientation
+    lesson : Lesson
+    """
+
+    def __init__(self, label: str, orientation: Orientation, lesson: Lesson) -> None:
+        self.label = label
+        self.orientation = orientation
+        self.lesson = lesson
+
+    @property
+    def options(self) -> PlacementOptions:
+        """The options it was learned with."""
+        return self.lesson.options
+
+    def place(
+        self,
+        scene: Scene,
+        threshold: float | None = None,
+        progress: Progress | None = None,
+        include_examples: bool = False,
+    ) -> list[Placement]:
+        """Every place in a scene that stands in the learned relations.
+
+        Parameters
+        ----------
+        scene : Scene
+        threshold : float, optional
+            Least score; None: that of the options; 0: all candidates, overlapping or not.
+        progress : callable (fraction, text) -> bool, optional
+            Returning False cancels.
+        include_examples : bool
+            Whether examples that were drawn in this very arrangement are placed again, with their target as score; for
+            replaying an edit from scratch.
+
+        Returns
+        -------
+        list of Placement
+            Best first; from a threshold above 0 on, without overlaps among themselves and with the examples.
+
+        Raises
+        ------
+        InputError
+            For a threshold outside [0, 1].
+        Cancelled
+            When `progress` returned False.
+        """
+        return run(self.placing(scene, threshold, include_examples), progress)
+
+    def placing(
+        self, scene: Scene, threshold: float | None = None, include_examples: bool = False
+    ) -> Stepper[list[Placement]]:
+        """`place` as a stepper: one step per parent.
+
+        Parameters
+        ----------
+        scene : Scene
+        threshold : float, optional
+        include_examples : bool
+
+        Returns
+        -------
+        generator of (float, str)
+            Returns the list of Placement.
+        """
+        least = self.options.threshold if threshold is None else threshold
+        if not 0 <= least <= 1:
+            raise InputError(f"the threshold is {least}; give a number from 0 to 1")
+        parents = [p for p in scene.polygons if p.label == self.label]
+        found: list[Placement] = []
+        for i, parent in enumerate(parents):
+            yield i / len(parents), f"placing in {self.label or 'polygon'} {i + 1} of {len(parents)}"
+            found += self._place_in(scene, parent, least, include_examples)
+        return sorted(found, key=lambda p: -p.score)
+
+    def _place_in(self, scene: Scene, parent: Polygon, least: float, include_examples: bool) -> list[Placement]:
+        found: list[Placement] = []
+        frames = self.orientation.frames(parent)
+        for frame in frames:
+            arrangement = arrangement_of(scene, parent, frame)
+            shown = self.shown_in(arrangement)
+            positive, drawn = self._drawn(arrangement, shown)
+            seen = survey(self.lesson, arrangement, positive, drawn)
+            score = self.scores(seen)
+            good = score >= max(least, 1e-6)
+            if self.orientation.by_segment:
+                good &= self._faces(arrangement, seen.boxes)
+            if self.options.forbid_intersections:
+                good &= ~self._intersects(arrangement, seen.boxes)
+            index = np.flatnonzero(good)
+            if least > 0:
+                index = index[without_overlaps(seen.boxes[index], score[index], drawn, self.options.allow_overlaps)]
+            else:
+                index = index[np.argsort(-score[index], kind="stable")]
+            like = np.argmax(seen.similarities[index][:, self.lesson.positive], axis=1) if len(index) else []
+            for i, j in zip(index, like, strict=True):
+                quarter = self.lesson.taught[self.lesson.positive[j]].quarter
+                found.append(
+                    Placement(
+                        Rectangle.from_box(seen.boxes[i], frame, quarter),
+                        float(score[i]),
+                        parent,
+                        float(np.clip(1.0 - seen.similarities[i].max(), 0.0, 1.0)),
+                    )
+                )
+            if include_examples:
+                found += [Placement(t.rectangle, t.target, parent, 0.0) for t in shown if t.target >= max(least, 1e-6)]
+        return _disjoint(found, self.options.allow_overlaps) if len(frames) > 1 and least > 0 else found
+
+    def shown_in(self, arrangement: Arrangement) -> list[Taught]:
+        """The examples that were drawn in this very arrangement.
+
+        Parameters
+        ----------
+        arrangement : Arrangement
+
+        Returns
+        -------
+        list of Taught
+        """
+        same = [t for t in self.lesson.taught if t.fingerprint == arrangement.fingerprint]
+        if not self.orientation.by_segment:
+            return same
+        centres = np.array([(t.rectangle.x, t.rectangle.y) for t in same]).reshape(-1, 2)
+        facing = nearest_directions(arrangement.parent, centres) + self.orientation.offset if len(same) else []
+        return [t for t, angle in zip(same, facing, strict=True) if _parallel(angle, arrangement.frame)]
+
+    def _drawn(self, arrangement: Arrangement, shown: list[Taught]) -> tuple[Array, Array]:
+        """Boxes of the positive and of all examples that were drawn here."""
+        boxes = np.array([t.rectangle.box(arrangement.frame)[0] for t in shown]).reshape(-1, 4)
+        return boxes[[t.target > 0 for t in shown]] if shown else boxes, boxes
+
+    def scores(self, seen: Survey) -> Array:
+        """Scores of surveyed candidates: certainty, times the predicted target, times the penalty on shapes (eq. 5.9).
+
+        Parameters
+        ----------
+        seen : Survey
+
+        Returns
+        -------
+        ndarray of shape (n,)
+        """
+        lesson = self.lesson
+        if not len(seen.boxes):
+            return np.zeros(0)
+        target = predicted_targets(seen.similarities, lesson.gram, lesson.targets)
+        shape = shape_factor(
+            seen.boxes[:, 2:] - seen.boxes[:, :2],
+            lesson.sizes[lesson.positive],
+            self.options.aspect_tolerance,
+            self.options.area_tolerance,
+        )
+        return np.clip(seen.certainty * target * shape, 0.0, 1.0)
+
+    def _faces(self, arrangement: Arrangement, boxes: Array) -> NDArray[np.bool_]:
+        """Whether the segment nearest to each box is one that the arrangement's frame belongs to."""
+        centres = arrangement.unturned((boxes[:, :2] + boxes[:, 2:]) / 2)
+        return _parallel(nearest_directions(arrangement.parent, centres) + self.orientation.offset, arrangement.frame)
+
+    def _intersects(self, arrangement: Arrangement, boxes: Array) -> NDArray[np.bool_]:
+        """Whether each box intersects an element of a label that no positive example intersects (section 5.5)."""
+        covered = coverage(arrangement, boxes)[0]
+        taught = [self.lesson.taught[i] for i in self.lesson.positive]
+        hit = np.zeros(len(boxes), dtype=bool)
+        for label, share in covered.items():
+            if max(t.covered.get(label, 0.0) for t in taught) <= 0.02:
+                hit |= share > 0.02
+        return hit
+
+    def to_dict(self) -> dict[str, Any]:
+        """The model as plain data, as it is written to JSON.
+
+        Returns
+        -------
+        dict
+        """
+        kept = self.lesson.kept
+        return {
+            "schema": SCHEMA,
+            "label": self.label,
+            "orientation": self.orientation.to_dict(),
+            "options": self.options.to_dict(),
+            "examples": [t.to_dict() for t in self.lesson.taught],
+            "boxes": {key: _plain(value) for key, value in kept.boxes.items()},
+            "outlines": {key: _plain(value) for key, value in kept.outlines.items()},
+        }
+
+    @classmethod
+    def from_dict(cls, plain: dict[str, Any]) -> "PlacementModel":
+        """The inverse of `to_dict`.
+
+        Parameters
+        ----------
+        plain : dict
+
+        Returns
+        -------
+        PlacementModel
+
+        Raises
+        ------
+        InputError
+            For data that is no stored placement model.
+        """
+        if not isinstance(plain, dict) or plain.get("schema") != SCHEMA:
+            raise InputError(f"this is no stored placement model (its schema is not {SCHEMA!r}); learn it again")
+        try:
+            taught = [Taught.from_dict(t) for t in plain["examples"]]
+            kept = Signature(
+                {key: np.array(value, dtype=np.float64) for key, value in plain["boxes"].items()},
+                {key: np.array(value, dtype=np.float64) for key, value in plain["outlines"].items()},
+            )
+            options = PlacementOptions.from_dict(plain["options"])
+            return cls(plain["label"], Orientation(**plain["orientation"]), Lesson(taught, kept, options))
+        except (KeyError, TypeError, ValueError, AttributeError) as error:
+            raise InputError(f"the stored placement model is damaged ({error}); learn it again") from error
+
+
+def learn_placement(examples: Sequence[Example], options: PlacementOptions | None = None) -> PlacementModel:
+    """Learn where rectangles are meant to be, from a few of them (sections 5.2 to 5.4).
+
+    Parameters
+    ----------
+    examples : sequence of Example
+        They may be of several scenes; 2 to 10 of them, if possible in different situations.
+    options : PlacementOptions, optional
+
+    Returns
+    -------
+    PlacementModel
+
+    Raises
+    ------
+    InputError
+        For no examples, examples outside every polygon, targets that are all 0, or two targets for one rectangle.
+    """
+    kept = checked(examples)
+    parents = parents_of(kept)
+    orientation = orientation_of(kept, parents)
+    chosen = options or PlacementOptions()
+    lessons = []
+    for example, parent in zip(kept, parents, strict=True):
+        frame = orientation.frame_at(parent, np.array([example.rectangle.x, example.rectangle.y]))
+        lessons.append(teach(arrangement_of(example.scene, parent, frame), example.rectangle, example.target, chosen))
+    return PlacementModel(
+        parents[0].label, orientation, Lesson.of([t for t, _ in lessons], [s for _, s in lessons], chosen)
+    )
+
+
+def _parallel(angle: Any, frame: float) -> Any:
+    return np.abs((np.asarray(angle) - frame + np.pi) % (2 * np.pi) - np.pi) <= PARALLEL_ANGLE
+
+
+def _disjoint(found: list[Placement], allowed: float) -> list[Placement]:
+    """Placements of different frames without overlaps, the best first."""
+    kept: list[Placement] = []
+    shapes: list[shapely.Polygon] = []
+    for placement in sorted(found, key=lambda p: -p.score):
+        shape = shapely.Polygon(placement.rectangle.ring)
+        if all(shapely.area(shapely.intersection(shape, s)) <= allowed * min(shape.area, s.area) for s in shapes):
+            kept.append(placement)
+            shapes.append(shape)
+    return kept
+
+
+def _plain(values: Array) -> Any:
+    """Nested lists with None for NaN: JSON knows no NaN."""
+    return np.where(np.isnan(values), None, values.astype(object)).tolist()

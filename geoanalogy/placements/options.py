@@ -1,0 +1,67 @@
+"""What the user can set about placements."""
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from ..errors import InputError
+
+
+@dataclass(frozen=True)
+class PlacementOptions:
+    """Options of learning and placing.
+
+    Attributes
+    ----------
+    threshold : float
+        Results with a lower score are not returned, unless `place` is told otherwise.
+    tau : float
+        The kernel size of section 5.7: below 1 for precise placements, above for tolerant ones.
+    neighbours : int
+        Elements of every label that a placement has relations to: the nearest ones.
+    aspect_tolerance, area_tolerance : float
+        The tolerances of eq. 5.9: widths of the Gaussians of the logarithm of the change in aspect and area, against
+        the example that is most alike; inf lets a placement take any shape.
+    mirrored : bool
+        Whether boxes that are found turned inside out (negative width or height) stay, mirrored; section 5.5 removes
+        them.
+    allow_overlaps : float
+        Share of the smaller of two results that they may share.
+    forbid_intersections : bool
+        Whether results that intersect elements of a label which no example intersects are removed outright (section
+        5.5). They always score lower.
+
+    Raises
+    ------
+    InputError
+        For values out of range.
+    """
+
+    threshold: float = 0.5
+    tau: float = 1.0
+    neighbours: int = 3
+    aspect_tolerance: float = 1.0
+    area_tolerance: float = 1.5
+    mirrored: bool = False
+    allow_overlaps: float = 0.15
+    forbid_intersections: bool = False
+
+    def __post_init__(self) -> None:
+        for name in ("tau", "aspect_tolerance", "area_tolerance"):
+            if not getattr(self, name) > 0:
+                raise InputError(f"the option {name} is {getattr(self, name)}; give a positive number")
+        for name in ("threshold", "allow_overlaps"):
+            if not 0 <= getattr(self, name) <= 1:
+                raise InputError(f"the option {name} is {getattr(self, name)}; give a number from 0 to 1")
+        if self.neighbours != int(self.neighbours) or self.neighbours < 1:
+            raise InputError(f"the option neighbours is {self.neighbours}; give a whole number from 1")
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data, as it is written to JSON (an infinite tolerance is None there)."""
+        return {k: None if isinstance(v, float) and np.isinf(v) else v for k, v in asdict(self).items()}
+
+    @classmethod
+    def from_dict(cls, plain: dict[str, Any]) -> "PlacementOptions":
+        """The inverse of `to_dict`."""
+        return cls(**{k: np.inf if v is None else v for k, v in plain.items()})

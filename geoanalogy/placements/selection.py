@@ -1,0 +1,94 @@
+"""Filters on ranked candidates (section 5.5)."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .boxes import overlap, union_overlap
+
+Array = NDArray[np.float64]
+
+
+def thin(boxes: Array, strength: Array, limit: float, most: int) -> NDArray[np.intp]:
+    """Non-maximum suppression: the strongest boxes, none of which nearly repeats a stronger one.
+
+    Parameters
+    ----------
+    boxes : ndarray of shape (n, 4)
+    strength : ndarray of shape (n,)
+    limit : float
+        Shared area over united area from which two boxes are the same.
+    most : int
+        How many to keep.
+
+    Returns
+    -------
+    ndarray of int
+        Indices, strongest first.
+    """
+    order = np.argsort(-strength, kind="stable")[: MOST_COMPARED * most]
+    same = union_overlap(boxes[order].astype(np.float32), boxes[order].astype(np.float32)) >= limit
+    kept: list[int] = []
+    free = np.ones(len(order), dtype=bool)
+    for i in range(len(order)):
+        if free[i]:
+            kept.append(i)
+            if len(kept) == most:
+                break
+            free &= ~same[i]
+    return order[kept]
+
+
+#: Boxes that are compared with each other for every one that is kept.
+MOST_COMPARED = 4
+
+
+def without_overlaps(boxes: Array, score: Array, taken: Array, allowed: float) -> NDArray[np.intp]:
+    """The best boxes that overlap neither what is taken nor each other: the lowest scores are removed first.
+
+    Parameters
+    ----------
+    boxes : ndarray of shape (n, 4)
+    score : ndarray of shape (n,)
+    taken : ndarray of shape (m, 4)
+    allowed : float
+        Share of the smaller box that two may share.
+
+    Returns
+    -------
+    ndarray of int
+        Indices, best first.
+    """
+    free = (overlap(boxes, taken) <= allowed).all(axis=1) if len(taken) else np.ones(len(boxes), dtype=bool)
+    order = np.argsort(-score, kind="stable")
+    kept = []
+    for i in order:
+        if free[i]:
+            kept.append(i)
+            free &= overlap(boxes[i : i + 1], boxes)[0] <= allowed
+    return np.array(kept, dtype=np.intp)
+
+
+def shape_factor(sizes: Array, taught: Array, aspect_tolerance: float, area_tolerance: float) -> Array:
+    """The penalty on deformed boxes (eq. 5.9).
+
+    The thesis compares with the average example. Where examples differ on purpose (a narrow and a wide balcony), both
+    of their shapes are right and the average need not be; the example most alike counts.
+
+    Parameters
+    ----------
+    sizes : ndarray of shape (n, 2)
+        Widths and heights.
+    taught : ndarray of shape (m, 2)
+        Those of the examples.
+    aspect_tolerance, area_tolerance : float
+        Widths of the Gaussians of the logarithms of the changes.
+
+    Returns
+    -------
+    ndarray of shape (n,)
+        Between 0 and 1.
+    """
+    change = np.log(sizes)[:, None] - np.log(taught)[None]
+    aspect = (change[..., 0] - change[..., 1]) / aspect_tolerance
+    area = change.sum(axis=2) / area_tolerance
+    return np.exp(-0.5 * (aspect**2 + area**2).min(axis=1))
