@@ -187,9 +187,9 @@ class Contours:
 
     @cached_property
     def corners(self) -> Floats:
-        """Running count of corners along each line, (n,): it grows by about 1 over a corner, sharp or blunt, and
-        hardly elsewhere.
+        """Running count of corners along each line, (n,).
 
+        It grows by about 1 over a corner, sharp or blunt, and hardly elsewhere.
         A corner stays one when a shape is bent, while its angle changes; so corners are counted beside the turn. A
         stretch of CORNER_WINDOW of the line's length is a corner in so far as it turns by more than CORNER_TURN.
         """

@@ -89,11 +89,10 @@ def _line(points: ArrayLike, number: int) -> Complex:
     if p.ndim != 2 or p.shape[1] != 2:
         raise InputError(f"Line {number} of the drawing has the shape {p.shape}: give points as (n, 2).")
     if not np.isfinite(p).all():
-        raise InputError(f"Line {number} of the drawing has a coordinate that is not a number: remove that point.")
+        raise InputError(f"Line {number} of the drawing has a coordinate that is no number: remove that point.")
     if np.abs(p).max(initial=0.0) > LARGEST_COORDINATE:
         raise InputError(
-            f"Line {number} of the drawing has a coordinate beyond {LARGEST_COORDINATE:g}: move it nearer to the
-            origin."
+            f"Line {number} of the drawing has a coordinate beyond {LARGEST_COORDINATE:g}: move it nearer."
         )
     z = p[:, 0] + 1j * p[:, 1]
     if len(z) < 2:

@@ -1,5 +1,4 @@
-"""Courses: evenly sampled stretches of line with their direction and their corners, as they are compared with each
-other."""
+"""Courses: evenly sampled stretches of line, with what is compared along them: their turns and their corners."""
 
 from dataclasses import dataclass
 
@@ -54,8 +53,7 @@ class Course:
         return Course(np.conj(self.points), -self.heading, self.corners, self.closed)
 
     def twice(self) -> "Course":
-        """A closed course walked twice, so that every stretch of it, wherever it begins, is a stretch without a
-        seam."""
+        """A closed course walked twice: every stretch of it, wherever it begins, is then one without a seam."""
         around = 2 * np.pi * (-1.0 if self.clockwise else 1.0)
         step = self.corners[-1] * len(self.points) / max(1, len(self.points) - 1)
         return Course(

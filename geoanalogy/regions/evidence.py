@@ -72,8 +72,7 @@ class Evidence:
 
 
 def support(fit: Fit) -> Floats:
-    """Evidence at each sample, (s,): 1 where its counterpart lies on its image and runs along it, 0 where it has
-    none."""
+    """Evidence at each sample, (s,): 1 where its counterpart lies on its image and runs along it, 0 without one."""
     out = np.exp(-0.5 * (fit.distance / NEAR) ** 2 - 0.5 * (fit.tilt / ASKEW) ** 2)
     return np.where(fit.counterpart >= 0, out, 0.0)
 
@@ -154,8 +153,7 @@ def _course(fitter: Fitter, fit: Fit) -> tuple[float, float]:
 
 
 def _explained(fitter: Fitter, query: Query, fit: Fit, at: NDArray[np.intp]) -> tuple[float, float]:
-    """How much of the lines inside the region's image, and of the lines that have counterparts, the counterparts
-    are."""
+    """How much the counterparts are of the lines inside the region's image, and of the lines they lie on."""
     t, s = fitter.target, fitter.samples
     scale = float(np.abs(fit.function.factor).mean())
     step = float(np.median(s.step[s.step > 0.0])) * scale

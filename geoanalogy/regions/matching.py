@@ -64,13 +64,16 @@ class RegionMatch:
         return self._drawing.out_of_frame(self.function(self._drawing.into_frame(points)))
 
     def confidence(self, points: ArrayLike) -> Floats:
-        """How well the mapping is supported at points, (n,): 1 where lines of the target agree, 0 where it is
-        extrapolated.
+        """How well the mapping is supported: 1 where lines of the target agree, 0 where it is extrapolated.
 
         Parameters
         ----------
         points : (n, 2) array
             Scene units.
+
+        Returns
+        -------
+        (n,) float
         """
         return self.function.nodes.blend(self._drawing.into_frame(points)) @ self._node_support
 

@@ -134,8 +134,7 @@ def _is_ring(z: Complex, kind: str) -> bool:
 
 
 def _region(z: Complex) -> shapely.Geometry:
-    """The polygon of a ring. The small loop where a lasso ends is dropped; a ring that crosses itself in earnest is
-    refused."""
+    """The polygon of a ring, without the small loop where a lasso ends; real crossings are refused."""
     if len(z) < 3:
         raise InputError("The query region has fewer than three corners: outline it again.")
     polygon = shapely.polygons(np.stack([z.real, z.imag], 1))
