@@ -14,6 +14,10 @@ from .geometry.scene import Scene
 from .placements.examples import Example
 from .placements.model import Placement, PlacementModel, learn_placement
 from .placements.options import PlacementOptions
+from .poses.options import PoseOptions
+from .poses.pose import Pose
+from .poses.propagate import PoseModel, learn_pose, propagate_pose
+from .poses.results import PoseResults, PropagatedPose
 from .regions.matching import Matches, RegionMatch, match_regions
 from .regions.options import RegionOptions
 
@@ -27,12 +31,19 @@ __all__ = [
     "PlacementModel",
     "PlacementOptions",
     "Polygon",
+    "Pose",
+    "PoseModel",
+    "PoseOptions",
+    "PoseResults",
+    "PropagatedPose",
     "Rectangle",
     "RegionMatch",
     "RegionOptions",
     "Scene",
     "learn_placement",
+    "learn_pose",
     "match_regions",
+    "propagate_pose",
     "read_drawing",
     "read_scene",
     "write_scene",

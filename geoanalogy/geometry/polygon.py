@@ -183,7 +183,8 @@ class Polygon:
                     f"{name} has {len(segment_labels)} segment labels for {count - closed} edges; give one per edge"
                 )
             self.segment_labels = tuple("" if segment_labels[i] is None else str(segment_labels[i]) for i in edges)
-        self.holes = tuple(clean_ring(h, f"hole {i} of {name}")[0][::-1] for i, h in enumerate(holes))
+        clean = (clean_ring(h, f"hole {i} of {name}")[0] for i, h in enumerate(holes))
+        self.holes = tuple(np.roll(ring[::-1], 1, axis=0) for ring in clean)
         if self.holes and not self.shape.is_valid:
             raise InputError(
                 f"{name} has a hole that leaves its outline or meets another hole; move or delete that hole"
@@ -193,6 +194,12 @@ class Polygon:
 
     def __repr__(self) -> str:
         return f"Polygon({len(self.points)} vertices, label={self.label!r}, id={self.id!r})"
+
+    @cached_property
+    def content(self) -> tuple[object, ...]:
+        """All there is to know of the polygon, hashable: equal polygons have equal contents."""
+        rings = tuple(ring.tobytes() for ring in self.rings)
+        return (self.id, self.label, self.parent, self.orientation, self.segment_labels, rings)
 
     @cached_property
     def shape(self) -> shapely.Polygon:

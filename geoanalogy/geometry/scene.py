@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError
 from .hierarchy import find_parents
+from .memory import Memory
 from .polygon import Polygon
 
 
@@ -27,6 +28,8 @@ class Scene:
     offset : pair of float
         What is added to the scene's coordinates to have those of the file it came from: map coordinates are brought
         near the origin, where Blender's single precision and ours hold them exactly.
+    memory : Memory, optional
+        Where what is derived from the scene is kept; scenes made from this one share it. None: one of its own.
 
     Attributes
     ----------
@@ -49,7 +52,9 @@ class Scene:
     ('b1', ['b1'])
     """
 
-    def __init__(self, polygons: Iterable[Polygon], offset: tuple[float, float] = (0.0, 0.0)) -> None:
+    def __init__(
+        self, polygons: Iterable[Polygon], offset: tuple[float, float] = (0.0, 0.0), memory: Memory | None = None
+    ) -> None:
         given = tuple(polygons)
         for p in given:
             if not isinstance(p, Polygon):
@@ -59,6 +64,7 @@ class Scene:
         self.polygons: tuple[Polygon, ...] = _with_unique_ids(given)
         self._index: dict[str, int] = {str(p.id): i for i, p in enumerate(self.polygons)}
         self.offset = (float(offset[0]), float(offset[1]))
+        self.memory = Memory() if memory is None else memory
 
     def __repr__(self) -> str:
         return f"Scene({len(self.polygons)} polygons)"
@@ -155,9 +161,19 @@ class Scene:
         near = self._tree.query(shape)
         held = shapely.area(shapely.intersection(np.array([self.polygons[i].shape for i in near], dtype=object), shape))
         holding = near[held >= share * shape.area]
-        members = self._hierarchy[1]
-        places = [i for i in holding if self.polygons[i].parent is None or members[i]]
-        return self._smallest(np.array(places, dtype=np.intp))
+        return self._smallest(holding[[self._is_place(i) for i in holding]])
+
+    def places(self) -> list[Polygon]:
+        """The polygons that something can be placed in: all but those with a stated parent that are nobody's parent.
+
+        Returns
+        -------
+        list of Polygon
+        """
+        return [p for i, p in enumerate(self.polygons) if self._is_place(i)]
+
+    def _is_place(self, i: int) -> bool:
+        return self.polygons[i].parent is None or bool(self._hierarchy[1][i])
 
     def _smallest(self, indices: NDArray[np.intp]) -> Polygon | None:
         return min((self.polygons[i] for i in np.sort(indices)), key=lambda p: p.area, default=None)
@@ -173,7 +189,7 @@ class Scene:
         -------
         Scene
         """
-        return Scene([*self.polygons, *polygons], self.offset)
+        return Scene([*self.polygons, *polygons], self.offset, self.memory)
 
     @cached_property
     def bounds(self) -> NDArray[np.float64]:

@@ -44,6 +44,9 @@ class PoseOptions:
         which.
     labels : bool
         Whether only features of equal label match (section 4.8).
+    other_parents : bool
+        Whether parents of another label than the example's may hold answers, where members of equal label (a bed, a
+        door) carry them.
     local_importance : {"distance", "constant"}
         I_l of section 4.4, or 1 for every feature (figure 4.13).
     matching_accuracy : {"features", "constant"}
@@ -77,6 +80,7 @@ class PoseOptions:
     symmetries: bool = False
     scale: Literal["fixed", "room"] = "room"
     labels: bool = True
+    other_parents: bool = False
     local_importance: Literal["distance", "constant"] = "distance"
     matching_accuracy: Literal["features", "constant"] = "features"
     relation_weights: Mapping[str, float] = field(default_factory=dict)

@@ -1,12 +1,16 @@
 """What a propagation returns: ranked poses, thinned without recomputation (sections 4.5 and 4.8)."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import overload
 
 import numpy as np
+import shapely
+from numpy.typing import NDArray
 
 from ..geometry.polygon import Polygon
+from ..tolerances import TOUCHING_SHARE
 from .pose import Pose
 
 
@@ -48,20 +52,25 @@ class PropagatedPose:
     scale : float
         Size of the object in proportion to the example's for which the relations hold (1 unless the option `scale` is
         "room").
-    relations : tuple of RelationShare
-        What carried it, largest first.
+    explain : callable
+        Returns what `relations` is; evaluated only when asked for.
     """
 
     pose: Pose
     importance: float
     parent: Polygon
     scale: float = 1.0
-    relations: tuple[RelationShare, ...] = field(default=(), repr=False)
+    explain: Callable[[], tuple[RelationShare, ...]] = field(default=tuple, repr=False, compare=False)
 
     @property
     def mirrored(self) -> bool:
         """Whether the object is mirrored (section 4.6)."""
         return self.pose.mirrored
+
+    @cached_property
+    def relations(self) -> tuple[RelationShare, ...]:
+        """What carried it, largest first; the weights add up to the importance (figure 4.14)."""
+        return self.explain()
 
 
 class PoseResults(Sequence[PropagatedPose]):
@@ -71,10 +80,13 @@ class PoseResults(Sequence[PropagatedPose]):
     ----------
     poses : sequence of PropagatedPose
         In order.
+    footprint : ndarray of shape (n, 2) or None
+        The object's ring in its own frame, for `disjoint`.
     """
 
-    def __init__(self, poses: Sequence[PropagatedPose]) -> None:
+    def __init__(self, poses: Sequence[PropagatedPose], footprint: NDArray[np.float64] | None = None) -> None:
         self._poses = tuple(poses)
+        self._footprint = footprint
 
     def __len__(self) -> int:
         return len(self._poses)
@@ -84,7 +96,7 @@ class PoseResults(Sequence[PropagatedPose]):
     @overload
     def __getitem__(self, index: slice) -> "PoseResults": ...
     def __getitem__(self, index: int | slice) -> "PropagatedPose | PoseResults":
-        return PoseResults(self._poses[index]) if isinstance(index, slice) else self._poses[index]
+        return PoseResults(self._poses[index], self._footprint) if isinstance(index, slice) else self._poses[index]
 
     def __iter__(self) -> Iterator[PropagatedPose]:
         return iter(self._poses)
@@ -103,7 +115,7 @@ class PoseResults(Sequence[PropagatedPose]):
         -------
         PoseResults
         """
-        return PoseResults([p for p in self._poses if p.importance >= threshold])
+        return PoseResults([p for p in self._poses if p.importance >= threshold], self._footprint)
 
     def max_per(self, label: str, count: int) -> "PoseResults":
         """The best few in every parent of a label; other parents keep all of theirs (section 4.8).
@@ -125,7 +137,7 @@ class PoseResults(Sequence[PropagatedPose]):
                 if taken[p.parent.id] > count:
                     continue
             kept.append(p)
-        return PoseResults(kept)
+        return PoseResults(kept, self._footprint)
 
     def apart(self, spacing: float) -> "PoseResults":
         """The best ones that keep a distance from all better ones in their parent (section 4.8, density).
@@ -146,4 +158,25 @@ class PoseResults(Sequence[PropagatedPose]):
             if all(np.hypot(p.pose.position[0] - x, p.pose.position[1] - y) >= spacing for x, y in others):
                 others.append(p.pose.position)
                 kept.append(p)
-        return PoseResults(kept)
+        return PoseResults(kept, self._footprint)
+
+    def disjoint(self) -> "PoseResults":
+        """The best ones whose footprints do not intersect those of better ones: results that can all be placed.
+
+        Returns
+        -------
+        PoseResults
+            All of them where the object is a point.
+        """
+        if self._footprint is None:
+            return self
+        outlines = [shapely.Polygon(p.pose.to_scene(self._footprint * p.scale)) for p in self._poses]
+        kept: list[int] = []
+        per_parent: dict[str | None, list[int]] = {}
+        for i, p in enumerate(self._poses):
+            others = per_parent.setdefault(p.parent.id, [])
+            shared = shapely.area(shapely.intersection([outlines[k] for k in others], outlines[i]))
+            if not (shared > TOUCHING_SHARE * outlines[i].area).any():
+                others.append(i)
+                kept.append(i)
+        return PoseResults([self._poses[i] for i in kept], self._footprint)

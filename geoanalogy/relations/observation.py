@@ -31,6 +31,8 @@ class Nearest:
         vertex it stays.
     edge : ndarray of shape (elements, points), int
         Index of the edge that the place is on.
+    left : ndarray of shape (elements, points), bool
+        Whether the point lies to the left of the boundary there: on the interior's side.
     """
 
     distance: Array
@@ -38,6 +40,7 @@ class Nearest:
     tangent: Array
     between: NDArray[np.bool_]
     edge: NDArray[np.intp]
+    left: NDArray[np.bool_]
 
 
 class Observation:
@@ -72,7 +75,7 @@ class Observation:
         n = len(self.points)
         if not count:
             empty = np.zeros((0, n))
-            return Nearest(empty, empty, empty, empty.astype(bool), empty.astype(np.intp))
+            return Nearest(empty, empty, empty, empty.astype(bool), empty.astype(np.intp), empty.astype(bool))
         if len(group) == count:  # one edge each: straight segments
             best = np.broadcast_to(np.arange(count)[:, None], (count, n))
         else:
@@ -93,7 +96,12 @@ class Observation:
         # Points nearest to a vertex lie on the outer side of its turn.
         side = np.where(e.edge_turns[edge, end] > 0, np.pi / 2, -np.pi / 2)
         tangent[row, point] = np.arctan2(way[:, 1], way[:, 0]) + side
-        return Nearest(distance, place + offset[best], tangent, between, best)
+        across = e.edge_vector[best, 0] * (self.points[:, 1] - e.edge_start[best, 1])
+        across -= e.edge_vector[best, 1] * (self.points[:, 0] - e.edge_start[best, 0])
+        # Round a vertex the two edges may disagree; there the points lie on the outer side of its turn.
+        left = across >= 0
+        left[row, point] = e.edge_turns[edge, end] <= 0
+        return Nearest(distance, place + offset[best], tangent, between, best, left)
 
     @cached_property
     def segment(self) -> Nearest:

@@ -1,0 +1,351 @@
+"""Candidate poses: maxima of the accumulated level sets on a grid (section 4.5).
+
+Three ways to accumulate, by the option of that name. All three only *find* places; what a place is worth is
+`importance`, evaluated exactly.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..relations.elements import ElementType
+from ..relations.table import Kind, Positional
+from .arrangement import FAR, Fields
+from .importance import WIDE_SHARE, WIDE_WIDTH, Importance, wrap
+from .matching import Answers
+
+Array = NDArray[np.float64]
+Array32 = NDArray[np.float32]
+Indices = NDArray[np.intp]
+
+#: Distance between neighbouring candidate places of a footprint, and half-width of the level sets they are found with,
+#: in half-widths of the exact ones: coarse enough to be cheap, so wide that every exact maximum has a candidate on its
+#: slope.
+FOOTPRINT_STEP = 1.5
+FOOTPRINT_WIDTH = 3.0
+
+#: Most directions a footprint is tried in.
+MOST_DIRECTIONS = 24
+
+#: Maxima taken on to exact evaluation, per grid.
+MAXIMA = 12
+
+
+@dataclass(frozen=True)
+class Candidates:
+    """Places worth an exact look.
+
+    Attributes
+    ----------
+    position : ndarray of shape (m, 2)
+    angle : ndarray of shape (m,)
+    """
+
+    position: Array
+    angle: Array
+
+
+def find_candidates(importance: Importance, fields: Fields, blocked: NDArray[np.bool_]) -> Candidates:
+    """The maxima of the accumulated level sets.
+
+    Parameters
+    ----------
+    importance : Importance
+        Of the arrangement, for one sense and scale.
+    fields : Fields
+        The arrangement's relation fields.
+    blocked : ndarray of shape (points,), bool
+        Grid points where no part of the object may be.
+
+    Returns
+    -------
+    Candidates
+    """
+    fields.evaluate(r for a in importance.answers.values() for r in a.relations)
+    if importance.query.rigid:
+        return _of_footprint(importance, fields, blocked)
+    free = np.flatnonzero(~blocked)
+    if importance.query.options.accumulation == "pose space":
+        return _in_pose_space(importance, fields, free)
+    return _in_plane(importance, fields, free)
+
+
+# ------------------------------------------------------------------------------------------------ footprint
+
+
+def _of_footprint(importance: Importance, fields: Fields, blocked: NDArray[np.bool_]) -> Candidates:
+    """Accumulate for all samples of the footprint, moved rigidly, in the few directions that the features suggest."""
+    grid = fields.grid
+    stride = max(1, int(FOOTPRINT_STEP * importance.width / grid.spacing))
+    reach = grid.steps(np.abs(importance.samples).max(initial=0.0) * np.ones((1, 2)))[0, 0]
+    rows, columns = np.arange(0, grid.rows, stride), np.arange(0, grid.columns, stride)
+    position, angle = [], []
+    for direction in directions(importance):
+        c, s = np.cos(direction), np.sin(direction)
+        steps = grid.steps(importance.samples @ np.array([[c, s], [-s, c]]))
+        row = rows[(rows + steps[:, 1].min() >= 0) & (rows + steps[:, 1].max() < grid.rows)]
+        column = columns[(columns + steps[:, 0].min() >= 0) & (columns + steps[:, 0].max() < grid.columns)]
+        if not len(row) or not len(column) or reach < 0:
+            continue
+        cells = (row[:, None] * grid.columns + column).ravel()
+        offsets = steps[:, 1] * grid.columns + steps[:, 0]
+        free = cells[~blocked[cells[:, None] + offsets].any(axis=1)]
+        if not len(free):
+            continue
+        score = _accumulate(importance, fields, free, offsets, direction)
+        sheet = np.full(len(grid), -1.0, dtype=np.float32)
+        sheet[free] = score
+        sheet = sheet.reshape(grid.rows, grid.columns)[np.ix_(rows, columns)]
+        best = _maxima(sheet, 1)[:MAXIMA]
+        r, k = np.divmod(best, len(columns))
+        position.append(grid.points[rows[r] * grid.columns + columns[k]])
+        angle.append(np.full(len(best), direction))
+    if not position:
+        return Candidates(np.zeros((0, 2)), np.zeros(0))
+    return Candidates(np.concatenate(position), np.concatenate(angle))
+
+
+def _accumulate(importance: Importance, fields: Fields, cells: Indices, offsets: Indices, direction: float) -> Array32:
+    """The importance of grid cells for one direction, with wide level sets; shape (cells,)."""
+    total = np.zeros(len(cells), dtype=np.float32)
+    width = np.float32(FOOTPRINT_WIDTH * importance.width)
+    for element, a in importance.answers.items():
+        entries = np.zeros((len(a.target), len(cells)), dtype=np.float32)
+        for k, relation in enumerate(a.relations):
+            chosen = np.arange(len(a.target))
+            where = cells + offsets[a.sample][:, None]
+            if element is not ElementType.CORNER:
+                turned = fields.direction(relation)[a.target[:, None], where]
+                miss = wrap(np.float32(direction) - turned - a.turn[k][:, None].astype(np.float32))
+                aligned = np.maximum(0, 1 - np.abs(miss) / np.float32(importance.query.options.direction_width))
+                chosen = np.flatnonzero(aligned.any(axis=1))
+                where, aligned = where[chosen], aligned[chosen]
+            away = _away(relation, a, k, importance, fields, chosen, where)
+            weight = np.maximum(0, 1 - away / width) * a.weight[k, chosen, None].astype(np.float32)
+            entries[chosen] += weight if element is ElementType.CORNER else weight * aligned
+        pairs = np.add.reduceat(entries, a.pair_start, axis=0) * a.accuracy[:, None].astype(np.float32)
+        total += np.maximum.reduceat(pairs, a.feature_start, axis=0).sum(axis=0)
+    return total
+
+
+def _away(
+    relation: Positional, a: Answers, k: int, importance: Importance, fields: Fields, chosen: Indices, where: Indices
+) -> Array32:
+    """Distance in the plane from the level sets of some entries at grid points; shape (chosen, points)."""
+    target = a.target[chosen]
+    value = a.value[k, chosen] * (importance.scale if relation.kind is Kind.LENGTH else 1.0)
+    miss = fields.value(relation)[target[:, None], where] - value[:, None].astype(np.float32)
+    if relation.period is not None:
+        period = relation.period(importance.target.elements)[target][:, None].astype(np.float32)
+        cyclic = np.isfinite(period[:, 0])
+        miss[cyclic] = wrap(miss[cyclic], period[cyclic])
+    miss = np.abs(miss)
+    if relation.kind is not Kind.LENGTH:
+        miss *= np.minimum(fields.reach(relation)[target[:, None], where], np.float32(FAR / 100))
+    return miss
+
+
+def directions(importance: Importance) -> list[float]:
+    """The directions a footprint may take: along the features that answer, as the example is along its own.
+
+    Parameters
+    ----------
+    importance : Importance
+
+    Returns
+    -------
+    list of float
+        Radians; strongest first, at least most of the directional kernel's width apart.
+    """
+    suggested, weight = [], []
+    for element, a in importance.answers.items():
+        if element is not ElementType.SEGMENT:
+            continue
+        e = importance.target.elements
+        heading = np.arctan2(e.edge_vector[:, 1], e.edge_vector[:, 0])
+        pair_of = np.repeat(np.arange(len(a.pair_start)), np.diff(np.append(a.pair_start, len(a.target))))
+        strength = a.weight.sum(axis=0) * a.accuracy[pair_of]
+        for edge, length in enumerate(e.edge_length):
+            mine = a.target == e.edge_segment[edge]
+            suggested.append((heading[edge] + a.turn[0, mine]) % (2 * np.pi))
+            weight.append(strength[mine] * length / e.segment_length[e.edge_segment[edge]])
+    if not suggested:
+        base = importance.target.parent.main_orientation - importance.query.arrangement.parent.main_orientation
+        return [float(base + importance.query.pose.angle + k * np.pi / 2) for k in range(4)]
+    angle, strength = np.concatenate(suggested), np.concatenate(weight)
+    apart = 0.9 * importance.query.options.direction_width
+    result: list[float] = []
+    left = strength.copy()
+    while len(result) < MOST_DIRECTIONS and left.max(initial=0.0) > 0:
+        order = np.flatnonzero(left > 0)
+        # The angle that gathers most around it, then the mean of what it gathers.
+        lead = order[np.argsort(-left[order], kind="stable")][:64]
+        near = np.abs(wrap(angle[lead][:, None] - angle)) < apart
+        best = near[np.argmax((near * left).sum(axis=1))]
+        first = angle[np.flatnonzero(best)[0]]
+        mean = first + np.average(wrap(angle[best] - first), weights=np.maximum(left[best], 1e-12))
+        if result and (left * best).sum() < 0.02 * strength.sum():
+            break
+        result.append(float(mean % (2 * np.pi)))
+        left[best] = 0.0
+    return result
+
+
+# ------------------------------------------------------------------------------------------------ plane
+
+
+def _level_sets(importance: Importance, fields: Fields, free: Indices):  # type: ignore[no-untyped-def]
+    """The level sets of every relation and pair at free grid points: kernel times I_m, and the direction wanted there.
+
+    Yields per source feature and relation its weight I_l, the kernels (pairs, points) and the directions (pairs,
+    points).
+    """
+    width = np.float32(importance.width)
+    for a in importance.answers.values():
+        for start, end in zip(a.feature_start, np.append(a.feature_start[1:], len(a.accuracy)), strict=True):
+            entry = a.pair_start[start:end]  # one sample: an entry is a pair
+            for k, relation in enumerate(a.relations):
+                away = _away(relation, a, k, importance, fields, entry, np.broadcast_to(free, (len(entry), len(free))))
+                away /= width
+                kernel = (1 - WIDE_SHARE) * np.maximum(0, 1 - away)
+                kernel += WIDE_SHARE * np.maximum(0, 1 - away / WIDE_WIDTH)
+                kernel *= a.accuracy[start:end, None].astype(np.float32)
+                towards = fields.direction(relation)[a.target[entry][:, None], free]
+                towards = towards + a.turn[k, entry, None].astype(np.float32)
+                yield float(a.weight[k, entry[0]]), kernel, towards
+
+
+def accumulate_in_plane(importance: Importance, fields: Fields, free: Indices) -> tuple[Array32, Array32]:
+    """I_p and phi_max of section 4.5 at grid points.
+
+    Parameters
+    ----------
+    importance : Importance
+        With the centre as its only sample.
+    fields : Fields
+        Evaluated.
+    free : ndarray of int
+        Grid points.
+
+    Returns
+    -------
+    importance, direction : ndarray of shape (free,), float32
+        The positional importance, divided by that of a perfect copy, and the direction of the strongest level set,
+        radians.
+    """
+    total = np.zeros(len(free), dtype=np.float32)
+    strongest = np.zeros(len(free), dtype=np.float32)
+    direction = np.zeros(len(free), dtype=np.float32)
+    column = np.arange(len(free))
+    for weight, kernel, towards in _level_sets(importance, fields, free):
+        best = np.argmax(kernel, axis=0)
+        value = kernel[best, column] * np.float32(weight)
+        total += value
+        stronger = value > strongest
+        strongest[stronger] = value[stronger]
+        direction[stronger] = towards[best[stronger], column[stronger]]
+    return total / np.float32(importance.query.total), direction
+
+
+def _in_plane(importance: Importance, fields: Fields, free: Indices) -> Candidates:
+    score, direction = accumulate_in_plane(importance, fields, free)
+    grid = fields.grid
+    sheet = np.full(len(grid), -1.0, dtype=np.float32)
+    sheet[free] = score
+    best = _maxima(sheet.reshape(grid.rows, grid.columns), max(1, int(2 * importance.width / grid.spacing)))
+    best = best[: 4 * MAXIMA]
+    place = np.zeros(len(grid), dtype=np.intp)
+    place[free] = np.arange(len(free))
+    return Candidates(grid.points[best], direction[place[best]].astype(np.float64))
+
+
+def _maxima(sheet: Array32, radius: int) -> Indices:
+    """Flat indices of the local maxima of a sheet of values, best first (non-maximum suppression).
+
+    Negative values are no places.
+    """
+    from scipy.ndimage import maximum_filter
+
+    top = maximum_filter(sheet, size=2 * radius + 1, mode="constant", cval=-1.0)
+    at = np.flatnonzero((sheet == top).ravel() & (sheet.ravel() > 0))
+    return at[np.argsort(-sheet.ravel()[at], kind="stable")]
+
+
+# ------------------------------------------------------------------------------------------------ pose space
+
+
+def accumulate_in_pose_space(importance: Importance, fields: Fields, free: Indices) -> Array32:
+    """I of section 4.5 on a grid of positions and directions, without the approximation of the plane.
+
+    Sparse in work: every level set touches only the cells it passes and the few directions around the one it asks for.
+    One room's sheet at a time is held, not the scene's.
+
+    Parameters
+    ----------
+    importance : Importance
+        With the centre as its only sample.
+    fields : Fields
+        Evaluated.
+    free : ndarray of int
+        Grid points.
+
+    Returns
+    -------
+    ndarray of shape (free, direction bins), float32
+        Importance divided by that of a perfect copy; bin b stands for the direction ``2 pi b / bins``.
+    """
+    bins = importance.query.options.direction_bins
+    bin_width = 2 * np.pi / bins
+    spread = int(np.ceil(importance.query.options.direction_width / bin_width))
+    total = np.zeros(len(free) * bins, dtype=np.float32)
+    best = np.zeros_like(total)
+    for weight, kernel, towards in _level_sets(importance, fields, free):
+        pair, cell = np.nonzero(kernel > LEAST_KERNEL)
+        strength = kernel[pair, cell] * np.float32(weight)
+        exact = towards[pair, cell] / np.float32(bin_width)
+        middle = np.rint(exact).astype(np.int32)
+        touched = []
+        for step in range(-spread, spread + 1):
+            off = np.abs(middle + step - exact) * np.float32(bin_width / importance.query.options.direction_width)
+            value = strength * np.maximum(0, 1 - off)
+            hit = value > 0
+            key = cell[hit] * bins + (middle[hit] + step) % bins
+            np.maximum.at(best, key, value[hit])
+            touched.append(key)
+        keys = np.concatenate(touched)
+        # Each touched cell once: what was added is cleared, so that repeats add nothing.
+        keys = keys[np.argsort(keys, kind="stable")]
+        keys = keys[np.append(True, np.diff(keys) != 0)] if len(keys) else keys
+        total[keys] += best[keys]
+        best[keys] = 0
+    return (total / np.float32(importance.query.total)).reshape(len(free), bins)
+
+
+#: Level sets weaker than this are not drawn into pose space.
+LEAST_KERNEL = 0.02
+
+
+def _in_pose_space(importance: Importance, fields: Fields, free: Indices) -> Candidates:
+    from scipy.ndimage import maximum_filter
+
+    volume = accumulate_in_pose_space(importance, fields, free)
+    grid, bins = fields.grid, volume.shape[1]
+    # A maximum is one among its directions and its neighbours' best; directions are cyclic.
+    own = maximum_filter(volume, size=(1, 5), mode="wrap")
+    cell, b = np.nonzero((volume == own) & (volume > 0.5 * volume.max(initial=0.0)))
+    strength = volume[cell, b]
+    order = np.argsort(-strength, kind="stable")
+    radius = max(1.0, 2 * importance.width / grid.spacing)
+    row, column = np.divmod(free[cell], grid.columns)
+    kept: list[int] = []
+    for i in order:
+        if len(kept) >= 4 * MAXIMA:
+            break
+        ks = np.array(kept, dtype=np.intp)
+        turn = np.abs((b[ks] - b[i] + bins // 2) % bins - bins // 2)
+        near = (np.abs(row[ks] - row[i]) <= radius) & (np.abs(column[ks] - column[i]) <= radius) & (turn <= 3)
+        if not near.any():
+            kept.append(int(i))
+    chosen = np.array(kept, dtype=np.intp)
+    return Candidates(grid.points[free[cell[chosen]]], 2 * np.pi * b[chosen] / bins)

@@ -1,0 +1,367 @@
+"""Propagating a pose: the steps of section 4.2 (figure 4.4) put together."""
+
+from collections.abc import Iterator, Mapping
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import InputError
+from ..geometry.polygon import Polygon
+from ..geometry.scene import Scene
+from ..progress import Progress, Stepper, run
+from ..tolerances import CONTAINED_SHARE
+from .arrangement import Arrangement, arrangement_of
+from .candidates import FOOTPRINT_STEP, find_candidates
+from .importance import Importance
+from .matching import senses
+from .options import PoseOptions
+from .pose import Pose, footprint_ring
+from .query import Query
+from .refinement import refine
+from .results import PoseResults, PropagatedPose
+from .validation import Validation
+
+Array = NDArray[np.float64]
+
+#: Rooms within this share of the example's size are of its size: in proportion to the room (option `scale`) is then
+#: the same as fixed.
+SAME_SIZE = 0.01
+
+#: Factor on the importance of answers in proportion to the room: of two equal answers the object at its own size is
+#: preferred.
+SCALED_FACTOR = 0.95
+
+#: Grid spacing at least, in half-widths of level sets: finer grids find nothing that the refinement would not.
+FINEST = 0.5
+
+#: Candidates of lower importance than this share of a parent's best are not refined.
+WORTH_REFINING = 0.5
+
+
+class PoseModel:
+    """An example, ready to be propagated in any scene: the pose in its surroundings.
+
+    Parameters
+    ----------
+    source : Scene
+        The example's parent polygon and its members.
+    parent : Polygon
+        The polygon of `source` that the example stands in.
+    pose : Pose
+    footprint : ndarray of shape (n, 2) or None
+        Ring in the pose's frame.
+    options : PoseOptions
+    """
+
+    def __init__(
+        self, source: Scene, parent: Polygon, pose: Pose, footprint: Array | None, options: PoseOptions
+    ) -> None:
+        self.source = source
+        self.parent = parent
+        self.pose = pose
+        self.footprint = footprint
+        self.options = options
+        self._arrangement = arrangement_of(source, parent)
+        self.query = Query(self._arrangement, pose, footprint, options)
+        self._validation = Validation(self._arrangement, pose, footprint, options)
+
+    def place(self, scene: Scene, progress: Progress | None = None) -> PoseResults:
+        """Find all places of a scene that answer the example.
+
+        Parameters
+        ----------
+        scene : Scene
+            The example's own or another one.
+        progress : callable (fraction, text) -> bool, optional
+            Returning False cancels.
+
+        Returns
+        -------
+        PoseResults
+            Best first; the example itself is never among them.
+
+        Raises
+        ------
+        Cancelled
+            When `progress` returned False.
+        """
+        return run(self.steps(scene), progress)
+
+    def steps(self, scene: Scene) -> Stepper[PoseResults]:
+        """The stepper behind `place`: a step per parent.
+
+        Parameters
+        ----------
+        scene : Scene
+
+        Returns
+        -------
+        generator of (float, str)
+            Returns PoseResults.
+        """
+        targets = [arrangement_of(scene, p) for p in self.targets(scene)]
+        spacing = self._spacing(targets)
+        found: list[PropagatedPose] = []
+        for i, target in enumerate(targets):
+            yield i / len(targets), f"placing in {target.parent.label or target.parent.id}"
+            found += self._place_in(target, spacing)
+        scene.memory.settle()
+        found.sort(key=lambda p: (-round(p.importance, 6), p.mirrored))
+        return PoseResults(found, self.footprint)
+
+    def targets(self, scene: Scene) -> list[Polygon]:
+        """The polygons of a scene that can hold answers.
+
+        Parameters
+        ----------
+        scene : Scene
+
+        Returns
+        -------
+        list of Polygon
+            Those of the parent's label (all, where labels do not count), in the scene's order.
+        """
+        free = not self.options.labels or self.options.other_parents
+        return [p for p in scene.places() if free or p.label == self.parent.label]
+
+    def _spacing(self, targets: list[Arrangement]) -> float:
+        """Distance between grid points in a parent of the example's size."""
+        area = sum(t.parent.area for t in targets)
+        spacing = max(float(np.sqrt(area / self.options.cells)), FINEST * self.query.width)
+        # In steps, so that examples of similar rooms share the fields.
+        return float(2 ** (np.floor(2 * np.log2(spacing)) / 2)) if spacing > 0 else 1.0
+
+    def scales(self, target: Arrangement) -> list[float]:
+        """The sizes, in proportion to the example's, at which an arrangement is tried.
+
+        Parameters
+        ----------
+        target : Arrangement
+
+        Returns
+        -------
+        list of float
+        """
+        ratio = target.parent.size / self._arrangement.parent.size
+        if self.options.scale == "fixed" or abs(ratio - 1) <= SAME_SIZE:
+            return [1.0]
+        return [1.0, ratio]
+
+    def importances(self, target: Arrangement) -> Iterator[Importance]:
+        """The importance in an arrangement, for every sense and scale that the options ask for.
+
+        Parameters
+        ----------
+        target : Arrangement
+
+        Yields
+        ------
+        Importance
+            Those that cannot reach the threshold are left out.
+        """
+        for scale in self.scales(target):
+            for sense in senses(self.query):
+                importance = Importance(self.query, target, sense, scale)
+                if importance.bound >= self.options.threshold:
+                    yield importance
+
+    def _place_in(self, target: Arrangement, spacing: float) -> list[PropagatedPose]:
+        found: list[tuple[float, Array, float, Importance]] = []
+        for importance in self.importances(target):
+            slack = FOOTPRINT_STEP * importance.width
+            margin = float(np.hypot(*importance.samples.T).max()) + spacing if self._juts_out else spacing
+            fields = target.fields(spacing, margin)
+            blocked = self._validation.blocked(target, fields, slack)
+            candidates = find_candidates(importance, fields, blocked)
+            if not len(candidates.angle):
+                continue
+            factor = 1.0 if importance.scale == 1.0 else SCALED_FACTOR
+            position, angle, value = self._refined(importance, candidates.position, candidates.angle)
+            mirrored = importance.sense.mirrored
+            kept = (value * factor >= self.options.threshold) & ~self._is_example(target, position, mirrored)
+            position, angle, value = position[kept], angle[kept], value[kept]
+            accepted = self._validation.accepts(target, position, angle, mirrored, importance.scale)
+            for p, a, v in zip(position[accepted], angle[accepted], value[accepted], strict=True):
+                found.append((float(v) * factor, p, float(a), importance))
+        # Of equal importance, the object as it is comes before its mirror image.
+        found.sort(key=lambda f: (-round(f[0], 6), f[3].sense.mirrored))
+        return self._apart(target, found)
+
+    def _refined(self, importance: Importance, position: Array, angle: Array) -> tuple[Array, Array, Array]:
+        value = importance(position, angle)
+        worth = value >= WORTH_REFINING * value.max(initial=0.0)
+        return refine(importance, position[worth], angle[worth])
+
+    @property
+    def _juts_out(self) -> bool:
+        if self.footprint is None:
+            return False
+        low, high = self.parent.bounds[:2], self.parent.bounds[2:]
+        ring = self.pose.to_scene(self.footprint)
+        return bool((ring < low).any() or (ring > high).any())
+
+    def _is_example(self, target: Arrangement, position: Array, mirrored: bool) -> NDArray[np.bool_]:
+        """Whether poses are the example itself, or its mirror image in the same place."""
+        if not target.is_at(self._arrangement):
+            return np.zeros(len(position), dtype=bool)
+        return np.hypot(*(position - self.pose.position).T) < max(self.reach, self.query.width)
+
+    @property
+    def reach(self) -> float:
+        """Least distance between two results, in scene units: nearer ones are the same place."""
+        if self.options.spacing is not None:
+            return self.options.spacing
+        if self.footprint is None:
+            return 2 * self.query.width
+        return float(np.ptp(self.footprint, axis=0).min()) / 2
+
+    def _apart(self, target: Arrangement, found: list[tuple[float, Array, float, Importance]]) -> list[PropagatedPose]:
+        """The best of one parent that keep their distance (non-maximum suppression)."""
+        most = min(self.options.candidates, self.options.max_per.get(target.parent.label, self.options.candidates))
+        in_space = self.options.accumulation == "pose space"
+        kept: list[PropagatedPose] = []
+        for value, position, angle, importance in found:
+            if len(kept) >= most:
+                break
+            reach = self.reach * importance.scale
+            # In pose space two directions at one place are two answers (figure 4.17).
+            if any(
+                np.hypot(*(position - k.pose.position)) < reach
+                and not (in_space and abs(np.angle(np.exp(1j * (angle - k.pose.angle)))) > self.options.direction_width)
+                for k in kept
+            ):
+                continue
+            pose = Pose((position[0], position[1]), angle % (2 * np.pi), importance.sense.mirrored)
+            explain = partial(importance.explain, position, angle)
+            kept.append(PropagatedPose(pose, value, target.parent, importance.scale, explain))
+        return kept
+
+    def to_dict(self) -> dict[str, Any]:
+        """The model as plain data: the example's surroundings, pose, footprint and options.
+
+        Returns
+        -------
+        dict
+        """
+        return {
+            "source": self.source.to_dict(),
+            "parent": self.parent.id,
+            "position": list(self.pose.position),
+            "angle": self.pose.angle,
+            "mirrored": self.pose.mirrored,
+            "footprint": None if self.footprint is None else self.footprint.tolist(),
+            "options": self.options.to_dict(),
+        }
+
+    @classmethod
+    def from_dict(cls, plain: Mapping[str, Any]) -> "PoseModel":
+        """The model that `to_dict` wrote.
+
+        Parameters
+        ----------
+        plain : mapping
+
+        Returns
+        -------
+        PoseModel
+
+        Raises
+        ------
+        InputError
+            Where something is missing or is not what it should be.
+        """
+        try:
+            source = Scene([Polygon(**p) for p in plain["source"]["polygons"]])
+            return cls(
+                source,
+                source.polygon(plain["parent"]),
+                Pose(tuple(plain["position"]), plain["angle"], plain["mirrored"]),
+                footprint_ring(plain["footprint"]),
+                PoseOptions.from_dict(plain["options"]),
+            )
+        except (KeyError, TypeError) as error:
+            raise InputError(f"the stored pose model lacks or garbles {error}; record the operation again") from error
+
+
+def learn_pose(
+    scene: Scene, pose: Pose, footprint: ArrayLike | None = None, options: PoseOptions | None = None
+) -> PoseModel:
+    """Take an example from its scene.
+
+    Parameters
+    ----------
+    scene : Scene
+    pose : Pose
+        Where the example stands, scene coordinates.
+    footprint : array_like of shape (n, 2), optional
+        The example's outline in the pose's own frame; None: a point.
+    options : PoseOptions, optional
+
+    Returns
+    -------
+    PoseModel
+
+    Raises
+    ------
+    InputError
+        Where the scene is empty or no polygon holds the example.
+    """
+    if not len(scene):
+        raise InputError("the scene is empty; add polygons, such as rooms, before an example is propagated")
+    ring = footprint_ring(footprint)
+    parent = None if ring is None else scene.parent_of_shape(pose.to_scene(ring), CONTAINED_SHARE)
+    parent = parent or scene.parent_of(pose.position)
+    if parent is None:
+        x, y = pose.position
+        raise InputError(f"the example at x {x:.6g}, y {y:.6g} lies outside every polygon; put it into one")
+    members = scene.members_of(str(parent.id))
+    # Members keep their parent; the parent itself is the top of its own scene.
+    top = Polygon(**{**parent.to_dict(), "parent": None})
+    source = Scene([top, *(Polygon(**{**m.to_dict(), "parent": parent.id}) for m in members)])
+    return PoseModel(source, source.polygon(str(parent.id)), pose, ring, options or PoseOptions())
+
+
+def propagate_pose(
+    scene: Scene,
+    pose: Pose,
+    footprint: ArrayLike | None = None,
+    options: PoseOptions | None = None,
+    progress: Progress | None = None,
+) -> PoseResults:
+    """Find the poses that stand in the same relations to their surroundings as an example does (chapter 4).
+
+    Parameters
+    ----------
+    scene : Scene
+        Labelled polygons with their hierarchy.
+    pose : Pose
+        The example.
+    footprint : array_like of shape (n, 2), optional
+        The example's outline in its own frame (origin at its position, x along its direction); None: a point.
+    options : PoseOptions, optional
+    progress : callable (fraction, text) -> bool, optional
+        Returning False cancels.
+
+    Returns
+    -------
+    PoseResults
+        Best first.
+
+    Raises
+    ------
+    InputError
+        Where the scene is empty, or the example is in no polygon or no sound ring.
+    Cancelled
+        When `progress` returned False.
+
+    Examples
+    --------
+    >>> rooms = [Polygon([(x, 0), (x + 4, 0), (x + 4, 3), (x, 3)], label="bedroom") for x in (0, 5)]
+    >>> bed = [(-1, -0.5), (1, -0.5), (1, 0.5), (-1, 0.5)]
+    >>> best = propagate_pose(Scene(rooms), Pose((1, 0.5), 0.0), footprint=bed)[0]
+    >>> [round(float(v), 3) for v in (*best.pose.position, best.pose.angle, best.importance)]
+    [6.0, 0.5, 0.0, 1.0]
+    """
+    return learn_pose(scene, pose, footprint, options).place(scene, progress)

@@ -1,0 +1,135 @@
+"""Pose validation: no unwanted intersections (section 4.8)."""
+
+from functools import cached_property
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from ..geometry.polygon import Polygon
+from ..tolerances import TOUCHING_SHARE
+from .arrangement import Arrangement, Fields
+from .options import PoseOptions
+from .pose import Pose
+
+Array = NDArray[np.float64]
+
+#: Share of the footprint that may jut out of the parent beyond what the example's does.
+JUTTING_SHARE = 0.03
+
+
+class Validation:
+    """What poses of an object may intersect: the labels that the example intersects, and no others.
+
+    Intersecting means sharing more than a sliver of area: furniture touches walls and each other.
+
+    Parameters
+    ----------
+    source : Arrangement
+        The example's.
+    pose : Pose
+        The example's.
+    footprint : ndarray of shape (n, 2) or None
+        Ring in the pose's frame; None: a point, which must only lie in the parent.
+    options : PoseOptions
+    """
+
+    def __init__(self, source: Arrangement, pose: Pose, footprint: Array | None, options: PoseOptions) -> None:
+        self._source = source
+        self._pose = pose
+        self._footprint = footprint
+        self._options = options
+
+    @cached_property
+    def _at_example(self) -> tuple[float, frozenset[str]]:
+        """Share of the example's area inside its parent, and the labels of the members that it intersects."""
+        if self._footprint is None:
+            return 1.0, frozenset()
+        outline = shapely.Polygon(self._pose.to_scene(self._footprint))
+        inside = outline.intersection(self._source.parent.shape).area / outline.area
+        hit = {m.label for m in self._source.members if _intersects(np.array([outline]), self._obstacle(m))[0]}
+        return inside, frozenset(hit)
+
+    def _obstacle(self, member: Polygon) -> shapely.Geometry:
+        """A member's outline, or what stands for it: a door with its swing."""
+        ring = self._options.alternative_geometry.get(str(member.id))
+        shape = member.shape if ring is None else shapely.make_valid(shapely.Polygon(np.asarray(ring, float)))
+        width = self._options.clearance.get(member.label, 0.0)
+        return shapely.buffer(shape, width, join_style="mitre") if width else shape
+
+    def obstacles(self, target: Arrangement) -> list[tuple[int, Polygon]]:
+        """The members that the object may not intersect, with their number among the arrangement's polygons.
+
+        Parameters
+        ----------
+        target : Arrangement
+
+        Returns
+        -------
+        list of (int, Polygon)
+        """
+        if not self._options.validate:
+            return []
+        allowed = self._at_example[1]
+        return [(i, m) for i, m in enumerate(target.members, start=1) if m.label not in allowed]
+
+    def blocked(self, target: Arrangement, fields: Fields, slack: float) -> NDArray[np.bool_]:
+        """Grid points where no part of the object may be: outside the parent or inside an obstacle.
+
+        Parameters
+        ----------
+        target : Arrangement
+        fields : Fields
+            The arrangement's, with the boundary distance evaluated.
+        slack : float
+            How far outside or inside, scene units.
+
+        Returns
+        -------
+        ndarray of shape (points,), bool
+        """
+        deep = fields.boundary_distance > slack
+        # An object that straddles its parent's boundary may do so elsewhere.
+        straddles = self._footprint is not None and self._at_example[0] < 1 - JUTTING_SHARE
+        blocked = np.zeros(deep.shape[1], dtype=bool) if straddles else ~fields.covered[0] & deep[0]
+        for i, _ in self.obstacles(target):
+            blocked |= fields.covered[i] & deep[i]
+        return blocked
+
+    def accepts(
+        self, target: Arrangement, position: Array, angle: Array, mirrored: bool, scale: float
+    ) -> NDArray[np.bool_]:
+        """Which poses intersect nothing that the example does not.
+
+        Parameters
+        ----------
+        target : Arrangement
+        position : ndarray of shape (m, 2)
+        angle : ndarray of shape (m,)
+        mirrored : bool
+        scale : float
+            Of the footprint.
+
+        Returns
+        -------
+        ndarray of shape (m,), bool
+        """
+        if self._footprint is None or not self._options.validate:
+            return shapely.intersects_xy(target.parent.shape, *position.T)  # type: ignore[no-any-return]
+        ring = self._footprint * scale * ((1.0, -1.0) if mirrored else (1.0, 1.0))
+        c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
+        x = position[:, :1] + c * ring[:, 0] - s * ring[:, 1]
+        y = position[:, 1:] + s * ring[:, 0] + c * ring[:, 1]
+        outlines = shapely.polygons(np.stack([x, y], axis=-1))
+        area = shapely.area(outlines)
+        inside = shapely.area(shapely.intersection(outlines, target.parent.shape)) / area
+        accepted: NDArray[np.bool_] = inside >= self._at_example[0] - JUTTING_SHARE
+        for _, member in self.obstacles(target):
+            accepted &= ~_intersects(outlines, self._obstacle(member))
+        return accepted
+
+
+def _intersects(outlines: NDArray[np.object_], obstacle: shapely.Geometry) -> NDArray[np.bool_]:
+    """Whether outlines share more than a sliver with an obstacle."""
+    shared = shapely.area(shapely.intersection(outlines, obstacle))
+    return shared > TOUCHING_SHARE * np.minimum(shapely.area(outlines), obstacle.area)  # type: ignore[no-any-return]
