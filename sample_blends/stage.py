@@ -36,7 +36,7 @@ def collection(scene: bpy.types.Scene, name: str) -> bpy.types.Collection:
     return made
 
 
-def light(scene: bpy.types.Scene, sun: float = 3.2, sky: float = 0.75, softness: float = 4.0) -> None:
+def light(scene: bpy.types.Scene, sun: float = 3.6, sky: float = 0.65, softness: float = 4.0) -> None:
     """Sun of a strength in W/m² and an angular size in degrees, and a sky that is bright at the horizon."""
     lamp = bpy.data.lights.new("Sun", "SUN")
     lamp.energy = sun
@@ -77,6 +77,16 @@ def light(scene: bpy.types.Scene, sun: float = 3.2, sky: float = 0.75, softness:
     tree.links.new(half.outputs[0], ramp.inputs["Fac"])
     tree.links.new(ramp.outputs["Color"], background.inputs["Color"])
     tree.links.new(background.outputs["Background"], output.inputs["Surface"])
+
+
+def softbox(scene: bpy.types.Scene, position: np.ndarray, target: np.ndarray, size: float, power: float) -> None:
+    """A square lamp of a size in metres and a power in watts that shines on a target."""
+    lamp = bpy.data.lights.new("Softbox", "AREA")
+    lamp.size = size
+    lamp.energy = power
+    stand = bpy.data.objects.new("Softbox", lamp)
+    stand.matrix_world = _looking(np.asarray(target, dtype=float) - position, np.asarray(position, dtype=float))
+    collection(scene, "Stage").objects.link(stand)
 
 
 def ground(scene: bpy.types.Scene, points: np.ndarray, finish: str, margin: float = 60.0, z: float = -0.02) -> None:
@@ -166,7 +176,7 @@ def settings(scene: bpy.types.Scene, width: int = 1600, height: int = 1000, samp
     scene.render.image_settings.file_format = "PNG"
     scene.view_settings.view_transform = "AgX"
     scene.view_settings.look = "AgX - Medium High Contrast"
-    scene.view_settings.exposure = 0.25
+    scene.view_settings.exposure = 0.15
 
 
 def _can_denoise(scene: bpy.types.Scene) -> bool:

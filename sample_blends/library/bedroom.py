@@ -154,7 +154,7 @@ def desk() -> Solid:
     )
 
 
-@asset("office chair", "furniture", circle(0.32, count=24), label="office chair")
+@asset("office chair", "furniture", circle(0.34, count=24), label="office chair")
 def office_chair() -> Solid:
     """Swivel chair; +X is where the sitter looks."""
     foot = joined(

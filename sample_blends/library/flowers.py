@@ -47,8 +47,9 @@ HOLLOW_BED = np.vstack(
         for sx, sy, start in ((1, 1, 270), (-1, 1, 0), (-1, -1, 90), (1, -1, 180))
     ]
 )
-# A quarter of a ring about a round lawn: its middle is the origin, its hollow side looks to +X.
-RING_BED = np.vstack((arc((4.6, 0.0), 5.6, 145.0, 215.0, 21), arc((4.6, 0.0), 3.6, 215.0, 145.0, 15)))
+# A piece of a ring about a round place; its hollow side looks to +X.
+RING_CENTRE = 4.276
+RING_BED = np.vstack((arc((RING_CENTRE, 0.0), 5.6, 145.0, 215.0, 21), arc((RING_CENTRE, 0.0), 3.6, 215.0, 145.0, 15)))
 
 
 @asset("round flower bed", "garden", ROUND_BED, label="flower bed")
@@ -99,7 +100,7 @@ def _clump(petal: str, seed: int, blossoms: int = 9, tall: float = 0.4, spread: 
     return joined(parts)
 
 
-FLOWER = circle(0.28, count=16)
+FLOWER = circle(0.31, count=16)
 
 
 @asset("red flower", "garden", FLOWER, label="flower")

@@ -14,7 +14,7 @@ WALL = 0.12
 
 
 def swing(width: float = DOOR_WIDTH, hinge: int = 1) -> np.ndarray:
-    """Quarter disc that a door leaf sweeps into +X; the threshold lies along y about the origin, the hinge at ``hinge`` y."""
+    """Quarter disc that a leaf sweeps into +X: its threshold lies along y about the origin, its hinge at ±y."""
     sweep = arc((0.0, width / 2), width, 270.0, 360.0, 10)
     ring = np.vstack(((0.0, width / 2), sweep))
     return ring if hinge > 0 else (ring * (1.0, -1.0))[::-1]
@@ -54,7 +54,7 @@ def window_solid(width: float, sill: float, height: float, wall: float, cut: boo
     frame, top = 0.07, height if cut else height - 0.07
     parts = [
         box((0.16, width + 0.08, 0.03), (0.02, 0.0, sill - 0.03), "white lacquer", 0.006),
-        box((wall + 0.06, width, 0.04), (-wall / 2 - 0.03, 0.0, sill - 0.04), "sandstone", 0.004),
+        box((wall + 0.06, width, 0.04), (-wall / 2 - 0.03, 0.0, sill - 0.032), "sandstone", 0.004),
         box((0.07, width, frame), (-wall / 2, 0.0, sill), "white lacquer", 0.005),
         box((0.012, width, top - sill), (-wall / 2, 0.0, sill), "window glass", 0.0),
     ]

@@ -85,7 +85,7 @@ def conifer() -> Solid:
 @asset("bush", "garden", circle(0.55, count=20))
 def bush() -> Solid:
     """Box clipped into a ball."""
-    ball = dense_ball(0.53, 13, (0.0, 0.0, 0.5), "box leaf")
+    ball = dense_ball(0.53, 13, (0.0, 0.0, 0.52), "box leaf")
     return joined((ball.roughened(0.024, 43), cylinder(0.1, 0.1, (0.0, 0.0, 0.0), "bark", sides=8)))
 
 
