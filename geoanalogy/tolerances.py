@@ -98,3 +98,13 @@ SAME_RECTANGLE = 1e-6
 #: Distance, in square roots of the parent's area, within which an example outside still belongs to it: what is
 #: seen beyond the edge of a photograph.
 NEAR_PARENT = 0.5
+
+# The operations tree (section 5.6)
+
+#: Largest difference of vertices, in sizes of a polygon, of a polygon and itself: Blender keeps single precision, which
+#: leaves 1e-5 of a room a hundred metres from the origin.
+SAME_POLYGON = 1e-4
+
+#: Distance, in sizes of the parent, within which a result is taken for the one that a decision by hand was made
+#: about: a replay after a wall was moved shifts results a little; of several, the nearest is meant.
+SAME_RESULT = 0.05

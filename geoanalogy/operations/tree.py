@@ -1,0 +1,330 @@
+"""The operations tree: recorded edits that are applied to any scene, and their JSON (section 5.6)."""
+
+import heapq
+import json
+import os
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError
+from ..geometry.scene import Scene
+from ..progress import Progress, Stepper, run, within
+from .element import Element
+from .evaluation import Evaluations
+from .layout import Layout, merge
+from .node import Node
+
+SCHEMA = "geoanalogy.operations"
+VERSION = 1
+
+
+class OperationsTree:
+    """Nodes and the links between them. Never changed: edits make a new tree.
+
+    A node sees the scene and what the nodes upstream of it have placed, no more; so it does not matter in which order
+    independent branches are listed or evaluated, and operations recorded one after the other are linked in a chain.
+
+    Parameters
+    ----------
+    nodes : iterable of Node
+        In any order.
+    evaluations : Evaluations, optional
+        What has been computed before, by this or another tree; handing it on is what makes an edited tree evaluate only
+        what changed.
+
+    Attributes
+    ----------
+    nodes : tuple of Node
+        Inputs first; among nodes that could come next, the one whose id comes first.
+    evaluations : Evaluations
+
+    Raises
+    ------
+    InputError
+        Where two nodes share an id, an input is not there, or nodes depend on each other in a circle.
+    """
+
+    def __init__(self, nodes: Iterable[Node] = (), evaluations: Evaluations | None = None) -> None:
+        given = tuple(nodes)
+        self._by_id = {node.id: node for node in given}
+        if len(self._by_id) < len(given):
+            twice = sorted({a.id for i, a in enumerate(given) if a.id in {b.id for b in given[:i]}})
+            raise InputError(f"several nodes are called {twice[0]!r}; give each node an id of its own")
+        self.nodes: tuple[Node, ...] = tuple(self._ordered())
+        self.evaluations = Evaluations() if evaluations is None else evaluations
+
+    def __repr__(self) -> str:
+        return f"OperationsTree({len(self.nodes)} nodes)"
+
+    def _ordered(self) -> list[Node]:
+        users: dict[str, list[str]] = {id: [] for id in self._by_id}
+        waiting = {}
+        for node in self._by_id.values():
+            for link in node.inputs:
+                if link.node not in self._by_id:
+                    raise InputError(
+                        f"node {node.id!r} has the input {link.node!r}, which is not in the tree; relink it"
+                    )
+                if not 0 <= link.output < self._by_id[link.node].operation.outputs:
+                    raise InputError(
+                        f"node {node.id!r} asks for output {link.output} of node {link.node!r}, which has "
+                        f"{self._by_id[link.node].operation.outputs}; relink it"
+                    )
+            sources = {link.node for link in node.inputs}
+            waiting[node.id] = len(sources)
+            for source in sources:
+                users[source].append(node.id)
+        ready = [id for id, count in waiting.items() if count == 0]
+        heapq.heapify(ready)
+        order = []
+        while ready:
+            id = heapq.heappop(ready)
+            order.append(self._by_id[id])
+            for user in users[id]:
+                waiting[user] -= 1
+                if waiting[user] == 0:
+                    heapq.heappush(ready, user)
+        if len(order) < len(self._by_id):
+            stuck = min(set(waiting) - {node.id for node in order})
+            raise InputError(f"the nodes form a circle through {stuck!r}; remove one of its links")
+        return order
+
+    def node(self, id: str) -> Node:
+        """The node of an id.
+
+        Parameters
+        ----------
+        id : str
+
+        Returns
+        -------
+        Node
+
+        Raises
+        ------
+        InputError
+            Where the tree has none of that id.
+        """
+        if id not in self._by_id:
+            raise InputError(f"the tree has no node {id!r}; it has {len(self.nodes)} nodes, check the id")
+        return self._by_id[id]
+
+    def with_node(self, node: Node) -> "OperationsTree":
+        """The tree with one more node, or with the node of that id replaced.
+
+        Parameters
+        ----------
+        node : Node
+
+        Returns
+        -------
+        OperationsTree
+            It shares what has been evaluated.
+        """
+        return OperationsTree({**self._by_id, node.id: node}.values(), self.evaluations)
+
+    @property
+    def leaves(self) -> tuple[str, ...]:
+        """Ids of the nodes that no other node takes its input from."""
+        used = {link.node for node in self.nodes for link in node.inputs}
+        return tuple(node.id for node in self.nodes if node.id not in used)
+
+    def apply(self, scene: Scene, seed: int = 0, progress: Progress | None = None) -> list[Element]:
+        """All elements that the tree places on a scene.
+
+        Parameters
+        ----------
+        scene : Scene
+        seed : int
+            Of all chance in the tree.
+        progress : callable (fraction, text) -> bool, optional
+            Returning False cancels.
+
+        Returns
+        -------
+        list of Element
+            Node by node in the tree's order; within a node the examples, then the results, best first.
+
+        Raises
+        ------
+        InputError
+            Where a node cannot be evaluated.
+        Cancelled
+            When `progress` returned False.
+        """
+        return run(self.steps(scene, seed), progress)
+
+    def steps(self, scene: Scene, seed: int = 0) -> Stepper[list[Element]]:
+        """The stepper behind `apply`.
+
+        Parameters
+        ----------
+        scene : Scene
+        seed : int
+
+        Returns
+        -------
+        generator of (float, str)
+            Returns the list of elements.
+        """
+        layout = yield from self.layout_steps(scene, seed=seed)
+        return list(layout.elements)
+
+    def layout(self, scene: Scene, node: str | None = None, seed: int = 0, progress: Progress | None = None) -> Layout:
+        """What flows out of a node: the layout that the next operation after it sees.
+
+        Parameters
+        ----------
+        scene : Scene
+        node : str, optional
+            Its first output; None: what all leaves have placed.
+        seed : int
+        progress : callable (fraction, text) -> bool, optional
+            Returning False cancels.
+
+        Returns
+        -------
+        Layout
+
+        Raises
+        ------
+        InputError
+            Where a node cannot be evaluated.
+        Cancelled
+            When `progress` returned False.
+        """
+        return run(self.layout_steps(scene, node, seed), progress)
+
+    def layout_steps(self, scene: Scene, node: str | None = None, seed: int = 0) -> Stepper[Layout]:
+        """The stepper behind `layout`.
+
+        Parameters
+        ----------
+        scene : Scene
+        node : str, optional
+        seed : int
+
+        Returns
+        -------
+        generator of (float, str)
+            Returns the layout.
+        """
+        rank = {n.id: i for i, n in enumerate(self.nodes)}
+        wanted = self._upstream(self.leaves if node is None else (self.node(node).id,))
+        needed = [n for n in self.nodes if n.id in wanted]
+        outputs: dict[str, tuple[Layout, ...]] = {}
+        for i, current in enumerate(needed):
+            yield i / len(needed), current.id
+            links = sorted(set(current.inputs), key=lambda k: (rank[k.node], k.output))
+            incoming = [outputs[k.node][k.output] for k in links] or [Layout(scene)]
+            step = self.evaluations.steps(current, merge(scene, incoming, rank), seed)
+            outputs[current.id] = yield from within(step, i / len(needed), (i + 1) / len(needed))
+        if node is not None:
+            return outputs[node][0]
+        last = [layout for leaf in self.leaves for layout in outputs[leaf]]
+        return merge(scene, last or [Layout(scene)], rank)
+
+    def _upstream(self, ids: Iterable[str]) -> set[str]:
+        found: set[str] = set()
+        stack = list(ids)
+        while stack:
+            id = stack.pop()
+            if id not in found:
+                found.add(id)
+                stack += [link.node for link in self._by_id[id].inputs]
+        return found
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data, as it is written to JSON.
+
+        Returns
+        -------
+        dict
+        """
+        return {"schema": f"{SCHEMA}/{VERSION}", "nodes": [node.to_dict() for node in self.nodes]}
+
+    @classmethod
+    def from_dict(cls, plain: Any, name: str = "the operations tree") -> "OperationsTree":
+        """The tree that `to_dict` wrote.
+
+        Parameters
+        ----------
+        plain : mapping
+        name : str
+            What it is called in messages: the file it comes from.
+
+        Returns
+        -------
+        OperationsTree
+
+        Raises
+        ------
+        InputError
+            For anything but a tree of this version, naming the node.
+        """
+        schema = plain.get("schema") if isinstance(plain, Mapping) else None
+        kind, _, version = schema.partition("/") if isinstance(schema, str) else ("", "", "")
+        if kind != SCHEMA or not version.isdecimal():
+            raise InputError(f"{name} is no operations tree; choose a file that GeoAnalogy has saved")
+        if int(version) > VERSION:
+            raise InputError(f"{name} was saved by a newer version of GeoAnalogy ({schema}); update the add-on")
+        if int(version) < 1 or not isinstance(plain.get("nodes"), list):
+            raise InputError(f"{name} is damaged: it has no list of nodes; save it again")
+        try:
+            return cls([Node.from_dict(node) for node in plain["nodes"]])
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from None
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> "OperationsTree":
+        """Read a tree from a file.
+
+        Parameters
+        ----------
+        path : path
+
+        Returns
+        -------
+        OperationsTree
+
+        Raises
+        ------
+        InputError
+            Where the file cannot be read, is cut off, or holds no tree of this version.
+        """
+        name = Path(path).name
+        try:
+            plain = json.loads(Path(path).read_text(encoding="utf-8"))
+        except OSError as error:
+            raise InputError(f"{name} cannot be read: {error.strerror or error}; check the path") from None
+        except (UnicodeDecodeError, RecursionError):
+            raise InputError(f"{name} is no JSON text; choose a file that GeoAnalogy has saved") from None
+        except json.JSONDecodeError as error:
+            raise InputError(
+                f"{name} is damaged or cut off at line {error.lineno} ({error.msg}); save it again"
+            ) from None
+        return cls.from_dict(plain, name)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the tree to a file. Where that fails, a file of that name stays as it was.
+
+        Parameters
+        ----------
+        path : path
+
+        Raises
+        ------
+        InputError
+            Where the file cannot be written.
+        """
+        path = Path(path)
+        written = json.dumps(self.to_dict(), indent=1, ensure_ascii=False, allow_nan=False)
+        part = path.with_name(path.name + ".part")
+        try:
+            part.write_text(written + "\n", encoding="utf-8")
+            os.replace(part, path)
+        except OSError as error:
+            raise InputError(
+                f"{path.name} cannot be written: {error.strerror or error}; choose another place"
+            ) from None
