@@ -67,6 +67,7 @@ def test_measures():
     assert room.area == 14.0
     assert room.size == np.sqrt(14.0)
     assert signed_area(room.holes[0]) == -2.0
+    assert room.holes[0].tolist() == [[1, 1.5], [1, 2.5], [3, 2.5], [3, 1.5]]
     assert room.bounds.tolist() == [0.0, 0.0, 4.0, 4.0]
     assert room.centroid == pytest.approx([2.0, 2.0])
     assert Polygon(rectangle(4, 2)).inscribed_radius == pytest.approx(1.0, rel=0.01)

@@ -1,0 +1,1 @@
+"""Files: GeoJSON, SVG and DXF in, labelled polygons out."""

@@ -1,0 +1,115 @@
+"""Reading and writing scenes and drawings, by the suffix of their files."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import InputError
+from ..geometry.scene import Scene
+from . import dxf, geojson, svg
+from .outlines import Outline, Points, make_scene
+
+_READERS = {".geojson": geojson.read, ".json": geojson.read, ".svg": svg.read, ".dxf": dxf.read}
+
+
+def read_scene(path: str | os.PathLike[str], *, label: str | None = None, scale: float = 1.0) -> Scene:
+    """A scene from a GeoJSON, SVG or DXF file.
+
+    Parameters
+    ----------
+    path : str or path-like
+        The suffix says the format: .geojson, .json, .svg, .dxf.
+    label : str, optional
+        Where the file keeps the labels: a property of GeoJSON features ("building"), an attribute of SVG shapes
+        ("class"; "layer" is the name of the group), "layer" or "block" of DXF. By default what the format's reader
+        says: `geojson.read`, `svg.read`, `dxf.read`.
+    scale : float
+        Scene units per unit of the file; 50 for a plan drawn at 1:50.
+
+    Returns
+    -------
+    Scene
+        Far from the origin its coordinates are moved near it; `Scene.offset` keeps by how much.
+
+    Raises
+    ------
+    InputError
+        Names the file, the feature and the reason.
+
+    Examples
+    --------
+    >>> scene = read_scene("plan.svg", label="class", scale=100)  # doctest: +SKIP
+    """
+    path = Path(path)
+    reader = _READERS.get(path.suffix.lower())
+    if reader is None:
+        raise InputError(f"{path.name} is in no format that is read; give a .geojson, .json, .svg or .dxf file")
+    if not np.isfinite(scale) or scale <= 0:
+        raise InputError(f"the scale {scale} is no scale; give how many scene units a unit of the file is, such as 50")
+    outlines = reader(_content(path), path.name, label)
+    if scale != 1.0:
+        outlines = [Outline(o.where, [r * scale for r in o.rings], o.properties) for o in outlines]
+    return make_scene(path.name, outlines)
+
+
+def read_drawing(path: str | os.PathLike[str]) -> list[Points]:
+    """The strokes of an SVG drawing.
+
+    Parameters
+    ----------
+    path : str or path-like
+        An .svg file.
+
+    Returns
+    -------
+    list of ndarray of shape (n, 2)
+        A closed line repeats its first point; y points upwards.
+
+    Raises
+    ------
+    InputError
+        Names the file, the shape and the reason.
+    """
+    path = Path(path)
+    if path.suffix.lower() != ".svg":
+        raise InputError(f"{path.name} is no drawing that is read; give an .svg file")
+    strokes = svg.read_strokes(_content(path), path.name)
+    if not strokes:
+        raise InputError(f"{path.name} holds no lines; draw at least one path")
+    return strokes
+
+
+def write_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
+    """Write a scene as GeoJSON; `read_scene` gives the same scene back.
+
+    Parameters
+    ----------
+    scene : Scene
+    path : str or path-like
+        A .geojson or .json file; an existing one is replaced once the new one is complete.
+
+    Raises
+    ------
+    InputError
+        For another suffix, and where the file cannot be written.
+    """
+    path = Path(path)
+    if path.suffix.lower() not in (".geojson", ".json"):
+        raise InputError(f"{path.name} is in no format that is written; give a .geojson file")
+    part = path.with_name(path.name + ".part")
+    try:
+        part.write_text(geojson.write(scene), encoding="utf-8")
+        part.replace(path)
+    except OSError as error:
+        raise InputError(f"{path} cannot be written ({error.strerror}); choose another place") from None
+
+
+def _content(path: Path) -> bytes:
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{path} cannot be read ({error.strerror}); check the name and the folder") from None
+    if not content.strip():
+        raise InputError(f"{path.name} is empty; export it again")
+    return content
