@@ -1,6 +1,7 @@
 """How well poses answer the example: the importance of section 4.5, evaluated exactly at any pose."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,11 +35,14 @@ class Misses:
         Signed angle from the direction asked for, radians.
     allowed : ndarray of shape (e, poses), bool
         Whether the sample is on the side asked for.
+    uphill : ndarray of shape (relations, e, poses) or None
+        Direction in which a sample would have to move for `place` to grow, radians.
     """
 
     place: Array
     turn: Array
     allowed: NDArray[np.bool_]
+    uphill: Array | None = None
 
 
 class Importance:
@@ -92,13 +96,15 @@ class Importance:
         y = position[:, 1] + np.multiply.outer(self.samples[:, 0], s) + np.multiply.outer(self.samples[:, 1], c)
         return np.stack([x, y], axis=-1)
 
-    def misses(self, position: Array, angle: Array) -> dict[ElementType, Misses]:
+    def misses(self, position: Array, angle: Array, uphill: bool = False) -> dict[ElementType, Misses]:
         """How far poses miss every relation asked for.
 
         Parameters
         ----------
         position : ndarray of shape (m, 2)
         angle : ndarray of shape (m,)
+        uphill : bool
+            Whether the directions in which the misses grow are wanted too.
 
         Returns
         -------
@@ -118,7 +124,8 @@ class Importance:
             # At a contact, on either side of it, the side means nothing.
             near = (a.contact[:, None] < self.width) | (distance(element, seen).reshape(shape)[at] < self.width)
             allowed = near | (side(element, seen).reshape(shape)[at] == a.inner[:, None])
-            result[element] = Misses(np.array(place), np.array(turn), allowed)
+            grows = np.array([r.uphill(seen).reshape(shape)[at] for r in a.relations]) if uphill else None
+            result[element] = Misses(np.array(place), np.array(turn), allowed, grows)
         return result
 
     def _off_level_set(
@@ -153,8 +160,8 @@ class Importance:
         ndarray of shape (relations, e, poses)
         """
         away = np.abs(misses.place) / self.width
-        k = (1 - WIDE_SHARE) * np.maximum(0.0, 1 - away) + WIDE_SHARE * np.maximum(0.0, 1 - away / WIDE_WIDTH)
-        return k * misses.allowed
+        k: Array = (1 - WIDE_SHARE) * np.maximum(0.0, 1 - away) + WIDE_SHARE * np.maximum(0.0, 1 - away / WIDE_WIDTH)
+        return np.where(misses.allowed, k, 0.0)
 
     def directional(self, element: ElementType, misses: Misses) -> Array | float:
         """The directional level sets' kernel, to be multiplied with the positional one.
@@ -186,11 +193,24 @@ class Importance:
         """
         result = {}
         for element, misses in self.misses(position, angle).items():
-            a = self.answers[element]
-            k = self.kernel(misses) * self.directional(element, misses)
-            entries = np.einsum("re,rem->em", a.weight, k)
-            result[element] = a.accuracy[:, None] * np.add.reduceat(entries, a.pair_start, axis=0)
+            result[element] = self.of_pairs(element, self.kernel(misses) * self.directional(element, misses))
         return result
+
+    def of_pairs(self, element: ElementType, kernel: Array) -> Array:
+        """What every pair contributes, given the kernels of its entries.
+
+        Parameters
+        ----------
+        element : ElementType
+        kernel : ndarray of shape (relations, e, m)
+
+        Returns
+        -------
+        ndarray of shape (pairs, m)
+        """
+        a = self.answers[element]
+        entries = np.einsum("re,rem->em", a.weight, kernel)
+        return a.accuracy[:, None] * np.add.reduceat(entries, a.pair_start, axis=0)
 
     def __call__(self, position: Array, angle: Array) -> Array:
         """The importance of poses, 1 for a perfect copy.
@@ -242,7 +262,7 @@ class Importance:
 FLAT = 1e-6
 
 
-def wrap(difference: Array, period: Array | float = 2 * np.pi) -> Array:
+def wrap(difference: NDArray[Any], period: NDArray[Any] | float = 2 * np.pi) -> NDArray[Any]:
     """A cyclic difference in the half-open interval around zero.
 
     Parameters

@@ -73,6 +73,10 @@ def _ratio(a: Array, b: Array) -> Array:
     return np.divide(np.minimum(a[:, None], b), larger, out=np.ones_like(larger), where=larger > 0)
 
 
+#: Values, turns (relations, k) and sides (k,) of a question.
+Seen = tuple[Array, Array, NDArray[np.bool_]]
+
+
 class Symmetry(enum.Enum):
     """A symmetry of features that level sets are taken through (section 4.6)."""
 
@@ -124,7 +128,7 @@ def _is_own_mirror_image(footprint: Array) -> bool:
     return bool(gap.max() <= MIRROR_TOLERANCE * np.ptp(footprint, axis=0).max())
 
 
-def _seen_through(symmetry: Symmetry, question: Question, element: ElementType) -> tuple[Array, Array, Array] | None:
+def _seen_through(symmetry: Symmetry, question: Question, element: ElementType) -> Seen | None:
     """Values, turns and sides of the question as a pose behind a symmetry has them.
 
     None where such features have no such symmetry.
@@ -223,7 +227,8 @@ def answers(query: Query, target: Arrangement, sense: Sense) -> dict[ElementType
         changes = (np.diff(source) != 0) | (np.diff(feature) != 0) | (np.diff(through) != 0)
         start = np.flatnonzero(np.append(True, changes))
         pair_source, pair_feature = source[start], feature[start]
-        value, turn, inner = (np.array([s[k] for s in seen]) for k in range(3))
+        value, turn = (np.array([s[k] for s in seen]) for k in (0, 1))
+        inner = np.array([s[2] for s in seen])
         result[element] = Answers(
             relations=question.relations,
             target=feature,

@@ -144,4 +144,5 @@ class PoseOptions:
             raise InputError(
                 f"{', '.join(sorted(unknown))} is no option of pose propagation; it may come from a newer version"
             )
-        return cls(**{k: tuple(v) if k == "relations" else v for k, v in plain.items()})
+        given: dict[str, Any] = {k: tuple(v) if k == "relations" else v for k, v in plain.items()}
+        return cls(**given)

@@ -14,7 +14,7 @@ from ..progress import Progress, Stepper, run
 from ..tolerances import CONTAINED_SHARE
 from .arrangement import Arrangement, arrangement_of
 from .candidates import FOOTPRINT_STEP, find_candidates
-from .importance import Importance
+from .importance import Importance, wrap
 from .matching import senses
 from .options import PoseOptions
 from .pose import Pose, footprint_ring
@@ -35,9 +35,6 @@ SCALED_FACTOR = 0.95
 
 #: Grid spacing at least, in half-widths of level sets: finer grids find nothing that the refinement would not.
 FINEST = 0.5
-
-#: Candidates of lower importance than this share of a parent's best are not refined.
-WORTH_REFINING = 0.5
 
 
 class PoseModel:
@@ -108,7 +105,7 @@ class PoseModel:
             yield i / len(targets), f"placing in {target.parent.label or target.parent.id}"
             found += self._place_in(target, spacing)
         scene.memory.settle()
-        found.sort(key=lambda p: (-round(p.importance, 6), p.mirrored))
+        found.sort(key=lambda p: self._rank(p.importance, p.mirrored, p.pose.angle, p.parent))
         return PoseResults(found, self.footprint)
 
     def targets(self, scene: Scene) -> list[Polygon]:
@@ -178,21 +175,21 @@ class PoseModel:
             if not len(candidates.angle):
                 continue
             factor = 1.0 if importance.scale == 1.0 else SCALED_FACTOR
-            position, angle, value = self._refined(importance, candidates.position, candidates.angle)
+            best = max((f[0] for f in found), default=0.0)
+            position, angle, value = refine(importance, candidates.position, candidates.angle, best / factor)
             mirrored = importance.sense.mirrored
             kept = (value * factor >= self.options.threshold) & ~self._is_example(target, position, mirrored)
             position, angle, value = position[kept], angle[kept], value[kept]
             accepted = self._validation.accepts(target, position, angle, mirrored, importance.scale)
             for p, a, v in zip(position[accepted], angle[accepted], value[accepted], strict=True):
                 found.append((float(v) * factor, p, float(a), importance))
-        # Of equal importance, the object as it is comes before its mirror image.
-        found.sort(key=lambda f: (-round(f[0], 6), f[3].sense.mirrored))
+        found.sort(key=lambda f: self._rank(f[0], f[3].sense.mirrored, f[2], target.parent))
         return self._apart(target, found)
 
-    def _refined(self, importance: Importance, position: Array, angle: Array) -> tuple[Array, Array, Array]:
-        value = importance(position, angle)
-        worth = value >= WORTH_REFINING * value.max(initial=0.0)
-        return refine(importance, position[worth], angle[worth])
+    def _rank(self, importance: float, mirrored: bool, angle: float, parent: Polygon) -> tuple[float, bool, float]:
+        """Sort best first; of equals, the object as it is before its mirror image, the least turned one first."""
+        turn = angle - self.pose.angle - parent.main_orientation + self.parent.main_orientation
+        return -round(importance, 4), mirrored, round(abs(float(wrap(np.array(turn)))), 3)
 
     @property
     def _juts_out(self) -> bool:
@@ -358,10 +355,11 @@ def propagate_pose(
 
     Examples
     --------
-    >>> rooms = [Polygon([(x, 0), (x + 4, 0), (x + 4, 3), (x, 3)], label="bedroom") for x in (0, 5)]
+    >>> rooms = [Polygon([(x, 0), (x + 4, 0), (x + 4, 3), (x, 3)], label="bedroom", id=f"at {x}") for x in (0, 5)]
     >>> bed = [(-1, -0.5), (1, -0.5), (1, 0.5), (-1, 0.5)]
-    >>> best = propagate_pose(Scene(rooms), Pose((1, 0.5), 0.0), footprint=bed)[0]
-    >>> [round(float(v), 3) for v in (*best.pose.position, best.pose.angle, best.importance)]
+    >>> beds = propagate_pose(Scene(rooms), Pose((1, 0.5), 0.0), footprint=bed)
+    >>> best = next(p for p in beds if p.parent.id == "at 5")
+    >>> [round(float(v), 3) for v in (*best.pose.position, best.pose.angle % (2 * np.pi), best.importance)]
     [6.0, 0.5, 0.0, 1.0]
     """
     return learn_pose(scene, pose, footprint, options).place(scene, progress)

@@ -144,7 +144,8 @@ class Query:
         # A member as wide as the room would else be attended to across all of it.
         outside = np.minimum(enclosing, 2 * self.arrangement.parent.enclosing_radius)
         radius = np.where(seen.inside[polygon], inscribed[polygon, None], outside[polygon, None])
-        return 1 - np.minimum(1.0, away / (radius * (FOOTPRINT_REACH if self.rigid else 1.0)))
+        importance: Array = 1 - np.minimum(1.0, away / (radius * (FOOTPRINT_REACH if self.rigid else 1.0)))
+        return importance
 
 
 def distance(element: ElementType, seen: Observation) -> Array:

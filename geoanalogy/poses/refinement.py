@@ -4,100 +4,126 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..relations.elements import ElementType
-from .importance import WIDE_SHARE, WIDE_WIDTH, Importance
+from .importance import WIDE_SHARE, WIDE_WIDTH, Importance, Misses
 
 Array = NDArray[np.float64]
 
-#: Iterations of reweighted least squares; the last ones only sharpen.
-ITERATIONS = 8
+#: Iterations of reweighted least squares.
+ITERATIONS = 7
 
-#: Steps of the numerical derivative, as a share of the level sets' width, and in radians.
-STEP = 1e-4
+#: Candidates kept after an iteration, by its number: at the most so many, within this share of the best importance.
+#: Falling behind early says little, falling behind late is final.
+KEPT = {0: (24, 0.5), 1: (16, 0.55), 2: (10, 0.6), 3: (8, 0.6)}
 
-#: Misses below this share of the width count as met when they are weighted: keeps the weights finite.
-MET = 1e-3
+#: Candidates nearer than this, in half-widths of level sets, have come to the same maximum.
+SAME_MAXIMUM = 0.1
+
+#: Misses below this share of the width count as met when they are weighted: keeps the weights finite. Sharper with
+#: every iteration.
+MET = 0.05
+SHARPER = 0.3
 
 
-def refine(importance: Importance, position: Array, angle: Array) -> tuple[Array, Array, Array]:
+def refine(importance: Importance, position: Array, angle: Array, floor: float = 0.0) -> tuple[Array, Array, Array]:
     """Move poses to the nearby maximum of the importance.
 
     The kernel falls off linearly, so a maximum is where the weighted sum of distances from level sets is least: solved
     by least squares, each miss weighted by its inverse, for position and direction together. The best pose met on the
-    way is returned.
+    way is returned; candidates that fall far behind are dropped.
 
     Parameters
     ----------
     importance : Importance
     position : ndarray of shape (m, 2)
     angle : ndarray of shape (m,)
+    floor : float
+        The best importance known elsewhere in the arrangement: what falls behind it is dropped too.
 
     Returns
     -------
     position, angle, importance : ndarray
-        Of shapes (m, 2), (m,) and (m,).
+        Of shapes (k, 2), (k,) and (k,), k <= m.
     """
-    position, angle = position.copy(), angle.copy()
-    value = importance(position, angle)
-    best_position, best_angle, best = position.copy(), angle.copy(), value
     unit = np.array([importance.width, importance.width, importance.query.options.direction_width])
-    for iteration in range(ITERATIONS):
-        step = _step(importance, position, angle, unit)
+    best_position, best_angle, best = position, angle, np.full(len(position), -1.0)
+    for iteration in range(ITERATIONS + 1):
+        if not len(position):
+            break
+        misses = importance.misses(position, angle, uphill=True)
+        value, step = _step(importance, misses, angle, unit, MET * SHARPER**iteration)
+        better = value > best
+        best_position = np.where(better[:, None], position, best_position)
+        best_angle = np.where(better, angle, best_angle)
+        best = np.maximum(best, value)
         # Far steps lead to other maxima, which have candidates of their own.
         size = np.abs(step / unit).max(axis=1, keepdims=True)
         step = step * np.minimum(1.0, 2.0 * 0.8**iteration / np.maximum(size, 1e-12))
         position, angle = position + step[:, :2], angle + step[:, 2]
-        value = importance(position, angle)
-        better = value > best
-        best_position[better], best_angle[better] = position[better], angle[better]
-        best = np.maximum(best, value)
+        if iteration in KEPT:
+            kept = _leading(best_position, best_angle, best, unit, floor, *KEPT[iteration])
+            position, angle = position[kept], angle[kept]
+            best_position, best_angle, best = best_position[kept], best_angle[kept], best[kept]
     return best_position, best_angle, best
 
 
-def _step(importance: Importance, position: Array, angle: Array, unit: Array) -> Array:
-    """One step of reweighted least squares; shape (m, 3)."""
-    at = importance.misses(position, angle)
-    moved = []
-    for axis in range(3):
-        nudge = np.zeros(3)
-        nudge[axis] = STEP * unit[axis]
-        moved.append(importance.misses(position + nudge[:2], angle + nudge[2]))
-    normal = np.zeros((len(position), 3, 3))
-    right = np.zeros((len(position), 3))
-    for element, misses in at.items():
+def _leading(
+    position: Array, angle: Array, value: Array, unit: Array, floor: float, most: int, share: float
+) -> NDArray[np.intp]:
+    """The best candidates, one per maximum."""
+    order = np.argsort(-value, kind="stable")
+    order = order[value[order] >= share * max(floor, value[order[0]])]
+    pose = np.column_stack([position, np.cos(angle) * unit[0] / unit[2], np.sin(angle) * unit[0] / unit[2]])[order]
+    near = np.abs(pose[:, None] - pose).max(axis=2) < SAME_MAXIMUM * unit[0]
+    # One that has a better one beside it is the same.
+    alone = ~np.tril(near, -1).any(axis=1)
+    return order[alone][:most]
+
+
+def _step(
+    importance: Importance, misses: dict[ElementType, Misses], angle: Array, unit: Array, met: float
+) -> tuple[Array, Array]:
+    """The importance, shape (m,), and one step of reweighted least squares, shape (m, 3)."""
+    m = len(angle)
+    total = np.zeros(m)
+    normal = np.zeros((m, 3, 3))
+    right = np.zeros((m, 3))
+    # A turn of the pose moves a sample at right angles to its arm.
+    arms = importance.sample_points(np.zeros((m, 2)), angle)
+    for element, missed in misses.items():
         a = importance.answers[element]
-        kernel = importance.kernel(misses)
-        directional = importance.directional(element, misses)
-        entries = np.einsum("re,rem->em", a.weight, kernel * directional)
-        pairs = np.add.reduceat(entries, a.pair_start, axis=0) * a.accuracy[:, None]
+        kernel = importance.kernel(missed)
+        directional = importance.directional(element, missed)
+        pairs = importance.of_pairs(element, kernel * directional)
         top = np.maximum.reduceat(pairs, a.feature_start, axis=0)
+        total += top.sum(axis=0)
         per_feature = np.diff(np.append(a.feature_start, len(a.accuracy)))
         wins = (pairs == np.repeat(top, per_feature, axis=0)) & (pairs > 0)
         per_pair = np.diff(np.append(a.pair_start, len(a.target)))
-        wins = np.repeat(wins, per_pair, axis=0)
-        strength = a.weight[:, :, None] * np.repeat(a.accuracy, per_pair)[:, None] * wins * (kernel > 0)
-        far = np.abs(misses.place) / importance.width
+        strength = np.repeat(wins * a.accuracy[:, None], per_pair, axis=0) * a.weight[:, :, None]
+        far = np.abs(missed.place) / importance.width
         pull = ((1 - WIDE_SHARE) * (far < 1) + WIDE_SHARE / WIDE_WIDTH * (far < WIDE_WIDTH)) * strength * directional
-        slope = [(m[element].place - misses.place) / STEP / importance.width for m in moved]
-        _add(normal, right, misses.place / importance.width, slope, pull / np.maximum(far, MET))
+        assert missed.uphill is not None
+        c, s = np.cos(missed.uphill), np.sin(missed.uphill)
+        arm = arms[a.sample]
+        around = (arm[..., 0] * s - arm[..., 1] * c) * unit[2] / importance.width
+        slope = np.stack([c, s, around], axis=-1)
+        weight = pull * missed.allowed / np.maximum(far, met)
+        _add(normal, right, missed.place / importance.width, slope, weight)
         if not (element is ElementType.CORNER and importance.query.rigid):
-            turn = misses.turn / unit[2]
+            turn = missed.turn / unit[2]
             off = np.abs(turn)
-            slope = [(m[element].turn - misses.turn) / STEP / unit[2] for m in moved]
-            _add(normal, right, turn, slope, (off < 1) * strength * kernel / np.maximum(off, MET))
-    normal += np.eye(3) * (1e-9 + 1e-6 * np.trace(normal, axis1=1, axis2=2)[:, None, None])
-    return -np.linalg.solve(normal, right[..., None])[..., 0] * unit
+            weight = (off < 1) * strength * kernel / np.maximum(off, met)
+            # Reference directions are taken as constant: those of straight segments are.
+            normal[:, 2, 2] += weight.sum(axis=(0, 1))
+            right[:, 2] += (weight * turn).sum(axis=(0, 1))
+    normal += np.eye(3) * (1e-9 + 1e-7 * np.trace(normal, axis1=1, axis2=2)[:, None, None])
+    step = -np.linalg.solve(normal, right[..., None])[..., 0] * unit
+    return total / importance.query.total if importance.query.total else total, step
 
 
-def _add(normal: Array, right: Array, miss: Array, slope: list[Array], weight: Array) -> None:
-    """Add weighted misses (relations, entries, m) to the normal equations."""
-    # Where a nearest place jumps between two edges the difference is no derivative.
-    steady = np.logical_and.reduce([np.isfinite(s) & (np.abs(s) < 50) for s in slope])
-    weight = np.where(steady & np.isfinite(miss), weight, 0.0)
+def _add(normal: Array, right: Array, miss: Array, slope: Array, weight: Array) -> None:
+    """Add weighted misses (relations, entries, m), with their slopes in three unknowns, to the normal equations."""
     miss = np.where(weight > 0, miss, 0.0)
-    slope = [np.where(weight > 0, s, 0.0) for s in slope]
-    for i in range(3):
-        weighted = weight * slope[i]
-        right[:, i] += np.einsum("rem,rem->m", weighted, miss)
-        for j in range(i, 3):
-            normal[:, i, j] += np.einsum("rem,rem->m", weighted, slope[j])
-            normal[:, j, i] = normal[:, i, j]
+    weighted = weight[..., None] * slope
+    right += np.einsum("remi,rem->mi", weighted, miss)
+    normal += np.einsum("remi,remj->mij", weighted, slope)

@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from ..tolerances import ZERO_LENGTH
 from .elements import Elements
 
 Array = NDArray[np.float64]
@@ -117,6 +118,27 @@ class Observation:
         e = self.elements
         ends = np.zeros((len(e.edge_polygon), 2), dtype=bool)
         return self._nearest(e.edge_polygon, len(e.polygons), e.edge_ring_offset, ends)
+
+    def away(self, nearest: Nearest) -> Array:
+        """Direction (radians) from nearest places to the points: where the distance grows.
+
+        Parameters
+        ----------
+        nearest : Nearest
+            `segment` or `boundary`.
+
+        Returns
+        -------
+        ndarray of shape (elements, points)
+            Where a point lies on the boundary, to the interior's side.
+        """
+        e = self.elements
+        along = self._edges[0][nearest.edge, np.arange(len(self.points))]
+        share = along / e.edge_length[nearest.edge]
+        x = self.points[:, 0] - e.edge_start[nearest.edge, 0] - share * e.edge_vector[nearest.edge, 0]
+        y = self.points[:, 1] - e.edge_start[nearest.edge, 1] - share * e.edge_vector[nearest.edge, 1]
+        touching = nearest.distance <= ZERO_LENGTH * e.edge_length[nearest.edge]
+        return np.where(touching, nearest.tangent + np.pi / 2, np.arctan2(y, x))
 
     @cached_property
     def inside(self) -> NDArray[np.bool_]:

@@ -61,6 +61,8 @@ class Positional:
         (Observation) -> ndarray (elements, points): the length of the value's gradient, per scene unit. It turns a
         difference in value into a distance in the plane, which is what a level set's width is (section 4.5 rasterises
         lines of fixed width).
+    uphill : callable
+        (Observation) -> ndarray (elements, points): the direction in radians in which the value grows.
     directional : Directional or None
         The directional relation it is intersected with (section 4.5); None: placements without direction only (chapter
         5).
@@ -73,6 +75,7 @@ class Positional:
     kind: Kind
     value: Callable[[Observation], Array]
     slope: Callable[[Observation], Array]
+    uphill: Callable[[Observation], Array]
     directional: Directional | None = None
     period: Callable[[Elements], Array] | None = None
 
@@ -150,6 +153,13 @@ def _box_coordinate(axis: int, origin: Callable[[Array, Array], Array]) -> Calla
     return value
 
 
+def _box_axis(axis: int) -> Callable[[Observation], Array]:
+    def uphill(seen: Observation) -> Array:
+        return np.full((len(seen.elements.polygons), len(seen.points)), seen.elements.frame + axis * np.pi / 2)
+
+    return uphill
+
+
 def _normalised_box_coordinate(axis: int) -> Callable[[Observation], Array]:
     def value(seen: Observation) -> Array:
         points, low, high = seen.box
@@ -179,10 +189,17 @@ POSE_RELATIONS: tuple[Positional, ...] = (
         Kind.LENGTH,
         _boundary_distance,
         _unit(_boundary_distance),
+        lambda seen: seen.away(seen.boundary),
         BOUNDARY_ANGLE,
     ),
     Positional(
-        "segment distance", ElementType.SEGMENT, Kind.LENGTH, _segment_distance, _unit(_segment_distance), SEGMENT_ANGLE
+        "segment distance",
+        ElementType.SEGMENT,
+        Kind.LENGTH,
+        _segment_distance,
+        _unit(_segment_distance),
+        lambda seen: seen.away(seen.segment),
+        SEGMENT_ANGLE,
     ),
     Positional(
         "segment arc length",
@@ -190,11 +207,18 @@ POSE_RELATIONS: tuple[Positional, ...] = (
         Kind.RATIO,
         _segment_arc_length,
         _segment_arc_slope,
+        lambda seen: seen.segment.tangent,
         SEGMENT_ANGLE,
         _segment_period,
     ),
     Positional(
-        "corner distance", ElementType.CORNER, Kind.LENGTH, _corner_distance, _unit(_corner_distance), CORNER_ANGLE
+        "corner distance",
+        ElementType.CORNER,
+        Kind.LENGTH,
+        _corner_distance,
+        _unit(_corner_distance),
+        lambda seen: seen.corner[1],
+        CORNER_ANGLE,
     ),
     Positional(
         "corner ratio",
@@ -202,6 +226,7 @@ POSE_RELATIONS: tuple[Positional, ...] = (
         Kind.RATIO,
         _corner_ratio,
         _corner_ratio_slope,
+        lambda seen: seen.corner[1] - np.pi / 2,
         CORNER_ANGLE,
         _constant_period(ElementType.CORNER, 2.0),
     ),
@@ -214,6 +239,7 @@ CENTROID_DIRECTION = Positional(
     Kind.ANGLE,
     _centroid_direction,
     _centroid_direction_slope,
+    lambda seen: seen.centroid[1] - np.pi / 2,
     CENTROID_ANGLE,
     _constant_period(ElementType.POLYGON, 2 * np.pi),
 )
@@ -225,6 +251,7 @@ FIXED_START_ARC_LENGTH = Positional(
     Kind.RATIO,
     _fixed_start_arc_length,
     _fixed_start_arc_slope,
+    lambda seen: seen.boundary.tangent,
     BOUNDARY_ANGLE,
     _constant_period(ElementType.POLYGON, 1.0),
 )
@@ -232,7 +259,7 @@ FIXED_START_ARC_LENGTH = Positional(
 #: Section 5.3: coordinates in the polygon's bounding box, from its least corner, its centre and its greatest corner,
 #: and normalised.
 BOX_RELATIONS: tuple[Positional, ...] = tuple(
-    Positional(f"box {origin} {'xy'[axis]}", ElementType.POLYGON, Kind.LENGTH, value, _unit(value))
+    Positional(f"box {origin} {'xy'[axis]}", ElementType.POLYGON, Kind.LENGTH, value, _unit(value), _box_axis(axis))
     for origin, at in (("minimum", lambda a, b: a), ("centre", lambda a, b: (a + b) / 2), ("maximum", lambda a, b: b))
     for axis in (0, 1)
     for value in [_box_coordinate(axis, at)]
@@ -243,6 +270,7 @@ BOX_RELATIONS: tuple[Positional, ...] = tuple(
         Kind.RATIO,
         _normalised_box_coordinate(axis),
         _normalised_box_slope(axis),
+        _box_axis(axis),
     )
     for axis in (0, 1)
 )

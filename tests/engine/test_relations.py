@@ -296,6 +296,9 @@ def test_slope_is_the_length_of_the_gradient(name, outline):
     assert smooth.sum() >= 0.9 * smooth.size
     slope = relation.slope(Observation(elements, points))
     assert slope[smooth] == pytest.approx(np.hypot(*ahead)[smooth], abs=2e-3)
+    uphill = relation.uphill(Observation(elements, points))
+    up = np.cos(uphill) * ahead[0] + np.sin(uphill) * ahead[1]
+    assert up[smooth] == pytest.approx(np.hypot(*ahead)[smooth], abs=2e-3)
 
 
 def _wrapped(difference, period):
