@@ -39,7 +39,12 @@ def read_scene(path: str | os.PathLike[str], *, label: str | None = None, scale:
 
     Examples
     --------
-    >>> scene = read_scene("plan.svg", label="class", scale=100)  # doctest: +SKIP
+    >>> from tempfile import TemporaryDirectory
+    >>> from geoanalogy.geometry.polygon import Polygon
+    >>> with TemporaryDirectory() as folder:
+    ...     write_scene(Scene([Polygon([(0, 0), (4, 0), (4, 3)], label="attic")]), f"{folder}/plan.geojson")
+    ...     read_scene(f"{folder}/plan.geojson").polygons[0].label
+    'attic'
     """
     path = Path(path)
     reader = _READERS.get(path.suffix.lower())
