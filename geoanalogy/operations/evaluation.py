@@ -51,24 +51,42 @@ class Evaluations:
         InputError
             What the operation raised, with the node's name before it.
         """
-        operation = node.operation
         if node.muted:
-            return (layout,) * operation.outputs
+            return (layout,) * node.operation.outputs
         try:
-            own_seed = node_seed(seed, node.id)
-            name = (node.id, own_seed, operation.content(layout))
-            if name in self._kept:
-                self.reused += 1
-                self._kept.move_to_end(name)
-            else:
-                proposed = yield from operation.propose(layout, node.id, own_seed)
-                self.evaluated += 1
-                self._kept[name] = proposed
-                if len(self._kept) > MOST_KEPT:
-                    self._kept.popitem(last=False)
-            return operation.decide(self._kept[name], layout, node.id)
+            proposed = yield from self.proposal(node, layout, seed)
+            return node.operation.decide(proposed, layout, node.id)
         except InputError as error:
             raise InputError(f"node {node.id!r}: {error}") from None
+
+    def proposal(self, node: Node, layout: Layout, seed: int) -> Stepper[Any]:
+        """What a node proposes, computed only where it is not kept, as a stepper.
+
+        Parameters
+        ----------
+        node : Node
+        layout : Layout
+            What comes in.
+        seed : int
+            The tree's.
+
+        Returns
+        -------
+        generator of (float, str)
+            Returns what the operation's `propose` returned.
+        """
+        own_seed = node_seed(seed, node.id)
+        name = (node.id, own_seed, node.operation.content(layout))
+        if name in self._kept:
+            self.reused += 1
+            self._kept.move_to_end(name)
+        else:
+            proposed = yield from node.operation.propose(layout, node.id, own_seed)
+            self.evaluated += 1
+            self._kept[name] = proposed
+            if len(self._kept) > MOST_KEPT:
+                self._kept.popitem(last=False)
+        return self._kept[name]
 
 
 def node_seed(seed: int, node: str) -> int:
