@@ -12,6 +12,7 @@ import shapely
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from sample_blends import building, stage
+from sample_blends.edits.apartment import EDITS
 from sample_blends.library.meshes import add_solid
 from sample_blends.library.openings import door_solid, window_solid
 from sample_blends.library.regions import standing
@@ -141,4 +142,4 @@ def build(scene: bpy.types.Scene) -> np.ndarray:
 
 
 if __name__ == "__main__":
-    building.run(build, __doc__, elevation=58.0, lens=85.0, margin=0.02)
+    building.run(build, __doc__, plan.plan(), EDITS, elevation=58.0, lens=85.0, margin=0.02)

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import bpy
 import numpy as np
 
 from . import stage
-from .library.meshes import mesh_of
+from .edits.edit import Edit
+from .edits.replay import replay, scene_of
+from .library import ASSETS
+from .library.meshes import add_asset, mesh_of
 from .library.solids import sheet
 from .plans.outlines import PlanPolygon
 
 PLAN = "Plan"
+PLACED = "Placed"
 # The plan lies a little above the floors, so that its faces can be picked.
 PLAN_HEIGHT = 0.004
 
@@ -32,8 +36,25 @@ def add_plan(scene: bpy.types.Scene, polygons: list[PlanPolygon], height: float 
         holder.objects.link(drawn)
 
 
-def run(build: Callable[[bpy.types.Scene], np.ndarray], description: str, **view: float) -> None:
-    """Command line of a scene: build it in an empty file, then save and render as asked.
+def add_placed(scene: bpy.types.Scene, polygons: list[PlanPolygon], edits: Sequence[Edit]) -> int:
+    """Apply the edits and put an object at every pose, in the collection "Placed"; returns how many."""
+    holder = stage.collection(scene, PLACED)
+    count = 0
+    for _, placed, _ in replay(scene_of(polygons), edits):
+        for item in placed:
+            add_asset(ASSETS[item.asset], holder, item.pose.position, item.pose.angle, mirrored=item.pose.mirrored)
+        count += len(placed)
+    return count
+
+
+def run(
+    build: Callable[[bpy.types.Scene], np.ndarray],
+    description: str,
+    polygons: list[PlanPolygon],
+    edits: Sequence[Edit],
+    **view: float,
+) -> None:
+    """Command line of a scene: build it in an empty file, then apply its edits, save and render as asked.
 
     ``build`` fills the scene and returns points (n, 3) that the camera must show; ``view`` goes to
     :func:`.stage.camera`.
@@ -41,6 +62,7 @@ def run(build: Callable[[bpy.types.Scene], np.ndarray], description: str, **view
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--output", type=Path, help="the .blend to write")
     parser.add_argument("--render", type=Path, help="the .png to write")
+    parser.add_argument("--edits", action="store_true", help="apply the scene's edits, not only its empty plan")
     parser.add_argument("--width", type=int, default=1600)
     parser.add_argument("--height", type=int, default=1000)
     parser.add_argument("--samples", type=int, default=32)
@@ -49,6 +71,8 @@ def run(build: Callable[[bpy.types.Scene], np.ndarray], description: str, **view
     arguments = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else None)
     scene = stage.clear()
     points = build(scene)
+    if arguments.edits:
+        print(f"placed {add_placed(scene, polygons, edits)} objects by {len(edits)} edits")
     stage.settings(scene, arguments.width, arguments.height, arguments.samples)
     if arguments.plan_view:
         view = {**view, "elevation": 90.0, "lens": None}

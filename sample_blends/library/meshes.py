@@ -48,11 +48,16 @@ def add_asset(
     position: tuple[float, float] = (0.0, 0.0),
     angle: float = 0.0,
     z: float = 0.0,
+    mirrored: bool = False,
 ) -> bpy.types.Object:
-    """An object of the asset at a pose of the plan (angle in radians), linked to a collection."""
+    """An object of the asset at a pose of the plan (angle in radians), linked to a collection.
+
+    All objects of an asset share its mesh. A mirrored one has its left and right exchanged.
+    """
     placed = bpy.data.objects.new(asset.name, asset_mesh(asset))
     placed.location = (*position, z)
     placed.rotation_euler = (0.0, 0.0, angle)
+    placed.scale = (1.0, -1.0 if mirrored else 1.0, 1.0)
     placed["ga_label"] = asset.label
     # The ground outline in the object's own frame, flat: x0, y0, x1, y1, …
     placed["ga_footprint"] = [float(c) for c in asset.footprint.ravel()]
