@@ -76,7 +76,7 @@ class Evaluations:
             Returns what the operation's `propose` returned.
         """
         own_seed = node_seed(seed, node.id)
-        name = (node.id, own_seed, node.operation.content(layout))
+        name = (node.id, own_seed if node.operation.random else None, node.operation.content(layout))
         if name in self._kept:
             self.reused += 1
             self._kept.move_to_end(name)

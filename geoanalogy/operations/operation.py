@@ -27,10 +27,13 @@ class Operation(ABC):
         Its name in files and menus.
     outputs : int
         Number of layouts it gives: 1, but for selections into several sets.
+    random : bool
+        Whether chance has a part in what it proposes.
     """
 
     type: ClassVar[str]
     outputs: ClassVar[int] = 1
+    random: ClassVar[bool] = False
 
     @abstractmethod
     def propose(self, layout: Layout, node: str, seed: int) -> Stepper[Any]:

@@ -103,33 +103,33 @@ class PlacingOne(Placing):
         """The object at the origin."""
         return Element(self.label, self.mesh, "", Pose((0.0, 0.0)), plain_ring(self.footprint), node, "")
 
-    def elements(
-        self, results: Iterable[PropagatedPose], node: str, model: PoseModel, scene: Scene
-    ) -> tuple[Element, ...]:
-        """Propagated poses as elements, after their example where it stands in the scene.
 
-        Parameters
-        ----------
-        results : iterable of PropagatedPose
-            Best first.
-        node : str
-        model : PoseModel
-            What they were propagated from.
-        scene : Scene
+def elements_of(
+    results: Iterable[PropagatedPose], model: PoseModel, mesh: str, label: str, node: str, scene: Scene
+) -> list[Element]:
+    """Propagated poses as elements, after their example where it stands in the scene.
 
-        Returns
-        -------
-        tuple of Element
-        """
-        found = [example(model, self.mesh, self.label, node)] if holds(scene, model.parent) else []
-        ring = plain_ring(self.footprint)
-        for r in results:
-            key = key_of(r.pose.position, r.parent)
-            parent = str(r.parent.id)
-            found.append(
-                Element(self.label, self.mesh, parent, r.pose, ring, node, key, scale=r.scale, importance=r.importance)
-            )
-        return with_distinct_keys(found)
+    Parameters
+    ----------
+    results : iterable of PropagatedPose
+        Best first.
+    model : PoseModel
+        What they were propagated from.
+    mesh, label, node : str
+        The elements'.
+    scene : Scene
+
+    Returns
+    -------
+    list of Element
+    """
+    ring = plain_ring(model.footprint)
+    found = [example(model, mesh, label, node)] if holds(scene, model.parent) else []
+    for r in results:
+        key = key_of(r.pose.position, r.parent)
+        parent = str(r.parent.id)
+        found.append(Element(label, mesh, parent, r.pose, ring, node, key, scale=r.scale, importance=r.importance))
+    return found
 
 
 def with_distinct_keys(elements: Sequence[Element]) -> tuple[Element, ...]:

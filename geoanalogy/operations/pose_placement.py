@@ -13,7 +13,7 @@ from ..progress import Stepper
 from ..tolerances import TOUCHING_SHARE
 from .element import Element
 from .layout import Layout
-from .placing import PlacingOne, read_by
+from .placing import PlacingOne, elements_of, read_by, with_distinct_keys
 from .settings import counts, number, optional, stored
 
 
@@ -48,7 +48,8 @@ class PosePlacement(PlacingOne):
     def propose(self, layout: Layout, node: str, seed: int) -> Stepper[tuple[Element, ...]]:
         """Propagate the example."""
         results = yield from self.model.steps(layout.scene)
-        return self.elements(results, node, self.model, layout.scene)
+        found = elements_of(results, self.model, self.mesh, self.label, node, layout.scene)
+        return with_distinct_keys(found)
 
     def chosen(self, results: Sequence[Element], examples: Sequence[Element], layout: Layout) -> Sequence[Element]:
         """The results above the threshold that leave each other room, at most so many per parent."""

@@ -1,7 +1,13 @@
 """THE table of operations: their names in files and menus, and their classes. Another kind becomes a row here."""
 
+from .array_placement import ArrayPlacement
+from .choice_placement import ChoicePlacement
+from .group_placement import GroupPlacement
 from .operation import Operation
 from .pose_placement import PosePlacement
+from .scatter_placement import ScatterPlacement
 
 #: Every kind of operation by its name.
-OPERATIONS: dict[str, type[Operation]] = {kind.type: kind for kind in (PosePlacement,)}
+OPERATIONS: dict[str, type[Operation]] = {
+    kind.type: kind for kind in (PosePlacement, ArrayPlacement, GroupPlacement, ScatterPlacement, ChoicePlacement)
+}

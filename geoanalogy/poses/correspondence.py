@@ -1,0 +1,110 @@
+"""Which place of one outline corresponds to which of another: the fixed starts of section 4.7."""
+
+from collections.abc import Callable
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from ..geometry.features import ring_features
+from ..geometry.polygon import Polygon
+from .local_coordinates import BoundarySystem
+
+Array = NDArray[np.float64]
+
+#: Weight of where corners lie in the polygons' frames beside what they are like. Derived orientations are known up to a
+#: quarter turn, so they only decide between shifts that are equally good.
+DERIVED_FRAME = 0.1
+
+#: The same where both polygons state their orientation: it decides.
+STATED_FRAME = 10.0
+
+
+def corresponding_arcs(source: BoundarySystem, target: BoundarySystem, corners: bool) -> tuple[Array, Array]:
+    """Arc lengths of the places that correspond: the fixed start, and all corners where there are equally many.
+
+    Parameters
+    ----------
+    source, target : BoundarySystem
+    corners : bool
+        Whether all corners are wanted; else the start alone.
+
+    Returns
+    -------
+    source, target : ndarray of shape (k,), k >= 1
+        Pairs of arc lengths, in the order in which the boundaries run.
+    """
+    count = len(source.corner_arcs)
+    if count and count == len(target.corner_arcs):
+        shift = _best_shift(source, target)
+        order = (np.arange(count) + shift) % count
+        kept = slice(None) if corners else slice(1)
+        return source.corner_arcs[kept], target.corner_arcs[order][kept]
+    if count and len(target.corner_arcs):
+        pair = corner_costs(source, target)
+        i, j = np.unravel_index(np.argmin(pair.round(9)), pair.shape)
+        return source.corner_arcs[[i]], target.corner_arcs[[j]]
+    return np.array([_axis_arc(source)]), np.array([_axis_arc(target)])
+
+
+def corner_costs(source: BoundarySystem, target: BoundarySystem) -> Array:
+    """How badly corners match: their openings (I_m of section 4.4) and their places in the polygons' frames.
+
+    Parameters
+    ----------
+    source, target : BoundarySystem
+
+    Returns
+    -------
+    ndarray of shape (source corners, target corners)
+    """
+    a, b = _openings(source.polygon), _openings(target.polygon)
+    p, q = _places(source), _places(target)
+    apart = np.hypot(*(p[:, None] - q).transpose(2, 0, 1))
+    return np.abs(a[:, None] - b) / np.pi + _frame_weight(source.polygon, target.polygon) * apart
+
+
+def _best_shift(source: BoundarySystem, target: BoundarySystem) -> int:
+    """The number of corners by which the target's are counted on, for the best match all round."""
+    pairs = corner_costs(source, target)
+    count = len(pairs)
+    shares = [np.diff(s.corner_arcs, append=s.corner_arcs[0] + s.perimeter) / s.perimeter for s in (source, target)]
+    pairs = pairs + np.abs(shares[0][:, None] - shares[1])
+    at = np.arange(count)
+    costs = np.array([pairs[at, (at + shift) % count].mean() for shift in range(count)])
+    # Shifts that differ by rounding alone are equal; of equal ones the first counts.
+    return int(np.argmin(costs.round(9)))
+
+
+def _openings(polygon: Polygon) -> Array:
+    return np.array([c.opening for c in ring_features(polygon.points)[1]])
+
+
+def _frame_weight(source: Polygon, target: Polygon) -> float:
+    stated = source.orientation is not None and target.orientation is not None
+    return STATED_FRAME if stated else DERIVED_FRAME
+
+
+def _places(system: BoundarySystem) -> Array:
+    """The corners in the box of the polygon's frame, each coordinate from 0 to 1."""
+    to_frame = _frame(system.polygon)
+    box = to_frame(system.ring)
+    low, high = box.min(axis=0), box.max(axis=0)
+    return (to_frame(system.places(system.corner_arcs)) - low) / (high - low)  # type: ignore[no-any-return]
+
+
+def _frame(polygon: Polygon) -> Callable[[Array], Array]:
+    c, s = np.cos(polygon.main_orientation), np.sin(polygon.main_orientation)
+    return lambda points: points @ np.array([[c, -s], [s, c]])
+
+
+def _axis_arc(system: BoundarySystem) -> float:
+    """Arc length of the place farthest along the main orientation, seen from the centroid."""
+    towards = system.polygon.main_orientation
+    centre = system.polygon.centroid
+    far = 2 * np.hypot(*np.ptp(system.ring, axis=0))
+    ray = shapely.LineString([centre, centre + far * np.array([np.cos(towards), np.sin(towards)])])
+    line = shapely.LinearRing(system.ring)
+    met = shapely.get_coordinates(ray.intersection(line))
+    place = met[np.argmax(np.hypot(*(met - centre).T))]
+    return float(shapely.line_locate_point(line, shapely.Point(place)))
