@@ -13,7 +13,7 @@ ITERATIONS = 7
 
 #: Candidates kept after an iteration, by its number: at the most so many, within this share of the best importance.
 #: Falling behind early says little, falling behind late is final.
-KEPT = {0: (24, 0.5), 1: (16, 0.55), 2: (10, 0.6), 3: (8, 0.6)}
+KEPT = {0: (24, 0.4), 1: (20, 0.4), 2: (16, 0.4), 3: (12, 0.4)}
 
 #: Candidates nearer than this, in half-widths of level sets, have come to the same maximum.
 SAME_MAXIMUM = 0.1
