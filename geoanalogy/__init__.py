@@ -11,6 +11,8 @@ from .geometry.drawing import Drawing
 from .geometry.polygon import Polygon
 from .geometry.rectangle import Rectangle
 from .geometry.scene import Scene
+from .operations.element import Element
+from .operations.tree import OperationsTree
 from .placements.examples import Example
 from .placements.model import Placement, PlacementModel, learn_placement
 from .placements.options import PlacementOptions
@@ -24,9 +26,11 @@ from .regions.options import RegionOptions
 __all__ = [
     "Cancelled",
     "Drawing",
+    "Element",
     "Example",
     "InputError",
     "Matches",
+    "OperationsTree",
     "Placement",
     "PlacementModel",
     "PlacementOptions",

@@ -13,7 +13,7 @@ from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..progress import Progress, Stepper, run, within
 from .arrangement import arrangement_of
-from .offset_path import Alignment, OffsetPath, align, offset_paths
+from .offset_path import Alignment, OffsetPath, Stretch, align, offset_paths
 from .options import PoseOptions
 from .pose import Pose
 from .propagate import PoseModel, learn_pose
@@ -22,17 +22,12 @@ from .validation import Validation
 
 Array = NDArray[np.float64]
 
-#: Objects that an array may have: more is a mistyped spacing.
-MOST_OBJECTS = 10_000
-
 #: Start and end nearer than this share of the spacing are one place.
 SAME_PLACE = 0.25
 
-#: Half the stretch, as a share of the whole path, over which its direction is taken: at a corner it halves the angle.
-DIRECTION_STRETCH = 1e-4
-
-#: Share of a spacing by which the way may be too short for the last object.
-LAST_SLACK = 1e-6
+#: Share of the importance of a boundary's best start (or end) below which other starts (or ends) do not count there: a
+#: weak end before the right one would cut the array short.
+MUCH_WEAKER = 0.7
 
 
 @dataclass(frozen=True)
@@ -101,44 +96,6 @@ class PoseArray:
     example: bool = False
 
 
-@dataclass(frozen=True)
-class _Stretch:
-    """Part of an offset path: where it begins, which way it runs (1 or -1), and how far."""
-
-    path: OffsetPath
-    begin: float
-    sense: int
-    length: float
-
-    def places(self, spacing: float, even: bool, closed: bool) -> Array:
-        """Distances of the objects from the beginning, along the way."""
-        count = self.length / spacing
-        if count > MOST_OBJECTS:
-            raise InputError(
-                f"an array at a spacing of {spacing:g} would have more than {MOST_OBJECTS} objects; "
-                "give a larger spacing"
-            )
-        if even:
-            gaps = max(1, round(count))
-            spacing = self.length / gaps
-        else:
-            gaps = math.floor(count + LAST_SLACK)
-        # All round, the place after the last gap is the start again.
-        return spacing * np.arange(max(1, gaps) if closed else gaps + 1)
-
-    def points(self, places: Array) -> Array:
-        return self.path.points(self.begin + self.sense * places)
-
-    def directions(self, places: Array) -> Array:
-        """Directions of the way, radians: at a corner that which halves the angle, at its ends its own."""
-        half = DIRECTION_STRETCH * self.path.length
-        before, after = np.maximum(places - half, 0.0), places + half
-        if self.length > half:
-            after = np.minimum(after, self.length)
-        way = self.points(after) - self.points(before)
-        return np.arctan2(way[:, 1], way[:, 0])
-
-
 class ArrayModel:
     """An array's start and end as examples, ready to be propagated in any scene.
 
@@ -183,7 +140,7 @@ class ArrayModel:
         """Whether arrays run all round."""
         return self.end is None
 
-    def _example_stretch(self, at: Alignment) -> _Stretch:
+    def _example_stretch(self, at: Alignment) -> Stretch:
         end = self.end or self.start
         to = align(end.pose.position, arrangement_of(end.source, end.parent).elements.polygons)
         if to.polygon.id != at.polygon.id:
@@ -206,7 +163,7 @@ class ArrayModel:
     def _paths(self, at: Alignment) -> list[OffsetPath]:
         return offset_paths(at.polygon, at.offset, at.inside, self.options.corners)
 
-    def _stretch(self, paths: Sequence[OffsetPath], start: Pose, end: Pose) -> _Stretch | None:
+    def _stretch(self, paths: Sequence[OffsetPath], start: Pose, end: Pose) -> Stretch | None:
         """The way from a start to an end; None where they are on different parts of the offset boundary."""
         if not paths:
             return None
@@ -214,24 +171,16 @@ class ArrayModel:
         if min(paths, key=lambda p: p.distance(end.position)) is not path:
             return None
         begin = path.project(start.position)
+        # Mirrored arrays run against the example; 0: its own way is yet to be found.
+        sense = -self._sense if start.mirrored else self._sense
         if self.closed:
-            return _Stretch(path, begin, self._sense_of(start, end) or 1, path.length)
+            return Stretch(path, begin, sense or 1, path.length)
         forward = (path.project(end.position) - begin) % path.length
         if path.length - forward < SAME_PLACE * self.spacing:
             forward = 0.0  # no round trip to an end that is the start, a rounding error behind it
-        sense = self._sense_of(start, end) or (1 if forward <= path.length / 2 else -1)
+        sense = sense or (1 if forward <= path.length / 2 else -1)
         length = forward if sense > 0 else (path.length - forward) % path.length
-        return _Stretch(path, begin, sense, length)
-
-    def _sense_of(self, start: Pose, end: Pose) -> int:
-        """Which way round an array runs: 1 with the boundary, -1 against it, 0 the shorter way.
-
-        A mirrored start and its mirrored end run against the example. Where only one of the two is mirrored (the object
-        is its own mirror image and its place symmetric), that says nothing.
-        """
-        if start.mirrored != end.mirrored:
-            return 0
-        return -self._sense if start.mirrored else self._sense
+        return Stretch(path, begin, sense, length)
 
     def place(self, scene: Scene, progress: Progress | None = None) -> list[PoseArray]:
         """Find all arrays of a scene.
@@ -259,9 +208,10 @@ class ArrayModel:
         """The stepper behind `place`.
 
         A start and an end make an array when both are nearest to the same polygon, on the same side, of the label that
-        the example's has (unless labels do not count). Of several ends the one that is nearest to the start along the
-        path is taken, and an end serves the one start that is nearest to it: further starts make no array. All round a
-        boundary runs one array, from the best start.
+        the example's has (unless labels do not count), and when both are mirrored or neither is. Of several ends the
+        one that is nearest to the start along the path is taken, and an end serves the one start that is nearest to it:
+        further starts make no array. All round a boundary runs one array, from the best start, and no array runs where
+        a better one does. Starts and ends much weaker than a boundary's best are no answers.
 
         Parameters
         ----------
@@ -280,17 +230,29 @@ class ArrayModel:
         else:
             ends = list((yield from within(self.end.steps(scene), half, 1.0)).above(self.options.threshold))
             ends = self._with_example(scene, self.end, ends)
-        origins = [self._aligned(scene, s) for s in starts]
+        origins = self._aligned(scene, starts)
         if self.closed:
             # One array runs all round a boundary: the best start's.
             firsts = {_boundary(o): i for i, o in reversed(list(enumerate(origins))) if o is not None}
             origins = [o if o is not None and firsts[_boundary(o)] == i else None for i, o in enumerate(origins)]
-        goals = origins if self.closed else [self._aligned(scene, e) for e in ends]
+        goals = origins if self.closed else self._aligned(scene, ends)
         arrays = []
         for i, j, stretch in self._pairs(starts, ends, origins, goals):
             polygon = goals[j].polygon  # type: ignore[union-attr]
             arrays.append(self._array(scene, starts[i], ends[j], polygon, stretch))
-        return [array for array in arrays if array.poses]
+        return self._apart([array for array in arrays if array.poses])
+
+    def _apart(self, arrays: list[PoseArray]) -> list[PoseArray]:
+        """The best arrays that do not run where better ones do."""
+        kept: list[PoseArray] = []
+        # Of equal ones, those that are not mirrored.
+        for array in sorted(arrays, key=lambda a: (not a.example, -round(a.importance, 6), a.poses[0].mirrored)):
+            here = np.array([p.position for p in array.poses])
+            there = [p.position for k in kept if k.polygon.id == array.polygon.id for p in k.poses]
+            gaps = np.hypot(*(here[:, None] - np.array(there).reshape(-1, 2)).transpose(2, 0, 1))
+            if not (gaps < self.spacing * array.scale / 2).any():
+                kept.append(array)
+        return kept
 
     def _with_example(self, scene: Scene, model: PoseModel, found: list[PropagatedPose]) -> list[PropagatedPose]:
         """The results after the example itself, where its parent is in the scene."""
@@ -298,9 +260,20 @@ class ArrayModel:
         own = [p for p in model.targets(scene) if p.id == model.parent.id and arrangement_of(scene, p).is_at(source)]
         return [*(PropagatedPose(model.pose, 1.0, p) for p in own), *found]
 
-    def _aligned(self, scene: Scene, found: PropagatedPose) -> Alignment | None:
-        at = align(found.pose.position, arrangement_of(scene, found.parent).elements.polygons)
-        return at if at.polygon.label == self._label or not self.start.options.labels else None
+    def _aligned(self, scene: Scene, found: Sequence[PropagatedPose]) -> list[Alignment | None]:
+        """The boundary that each start or end belongs to; None for those that make no array."""
+        aligned: list[Alignment | None] = []
+        best: dict[tuple[str | None, bool], float] = {}
+        for f in found:
+            at = align(f.pose.position, arrangement_of(scene, f.parent).elements.polygons)
+            if self.start.options.labels and at.polygon.label != self._label:
+                aligned.append(None)
+                continue
+            # The example is no measure for the others: they are in other places.
+            if f.pose is not self.start.pose and (self.end is None or f.pose is not self.end.pose):
+                best[_boundary(at)] = max(best.get(_boundary(at), 0.0), f.importance)
+            aligned.append(at if f.importance >= MUCH_WEAKER * best.get(_boundary(at), 0.0) else None)
+        return aligned
 
     def _pairs(
         self,
@@ -308,25 +281,29 @@ class ArrayModel:
         ends: Sequence[PropagatedPose],
         origins: Sequence[Alignment | None],
         goals: Sequence[Alignment | None],
-    ) -> list[tuple[int, int, _Stretch]]:
-        ways: list[tuple[float, int, int, _Stretch]] = []
+    ) -> list[tuple[int, int, Stretch]]:
+        ways: list[tuple[float, int, int, Stretch]] = []
         own = self._begins(starts, self.start) and (self.end is None or self._begins(ends, self.end))
         for i, origin in enumerate(origins):
             # The example's start goes to the example's end.
             goal_range = [i] if self.closed else [0] if own and i == 0 else range(len(goals))
-            agreeing = [j for j in goal_range if origin is not None and _agree(origin, goals[j])]
+            agreeing = [
+                j
+                for j in goal_range
+                if origin is not None and _agree(origin, goals[j]) and starts[i].pose.mirrored == ends[j].pose.mirrored
+            ]
             paths = self._paths(origin) if origin is not None and agreeing else []
             for j in agreeing:
                 stretch = self._stretch(paths, starts[i].pose, ends[j].pose)
                 # An end in the start's own place is another array's.
                 if stretch is not None and stretch.length >= SAME_PLACE * self.spacing:
                     ways.append((stretch.length, i, j, stretch))
-        by_start: dict[int, tuple[float, int, int, _Stretch]] = {}
+        by_start: dict[int, tuple[float, int, int, Stretch]] = {}
         for way in sorted(ways, key=lambda w: w[:3]):
             by_start.setdefault(way[1], way)
         if self.closed:
-            return [(i, j, stretch) for _, i, j, stretch in by_start.values()]
-        by_end: dict[int, tuple[float, int, int, _Stretch]] = {}
+            return [(i, j, stretch) for _, i, j, stretch in sorted(by_start.values(), key=lambda w: w[1])]
+        by_end: dict[int, tuple[float, int, int, Stretch]] = {}
         for way in sorted(by_start.values(), key=lambda w: (not (own and w[1] == 0), *w[:3])):
             by_end.setdefault(way[2], way)
         return [(i, j, stretch) for _, i, j, stretch in sorted(by_end.values(), key=lambda w: w[1])]
@@ -336,7 +313,7 @@ class ArrayModel:
         return bool(found) and found[0].pose is model.pose
 
     def _array(
-        self, scene: Scene, start: PropagatedPose, end: PropagatedPose, polygon: Polygon, stretch: _Stretch
+        self, scene: Scene, start: PropagatedPose, end: PropagatedPose, polygon: Polygon, stretch: Stretch
     ) -> PoseArray:
         places = stretch.places(self.spacing * start.scale, self.options.even, self.closed)
         positions = stretch.points(places)

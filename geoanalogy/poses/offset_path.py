@@ -1,5 +1,6 @@
 """Offset boundaries: the paths that arrays are aligned along (section 4.8)."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,6 +10,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..relations.elements import Elements
 from ..relations.observation import Observation
@@ -20,6 +22,16 @@ ARC_EDGES = 64
 
 #: Longest mitre, in offsets; sharper corners are cut off.
 LONGEST_MITRE = 10.0
+
+
+#: Objects that an array may have: more is a mistyped spacing.
+MOST_OBJECTS = 10_000
+
+#: Half the stretch, as a share of the whole path, over which its direction is taken: at a corner it halves the angle.
+DIRECTION_STRETCH = 1e-4
+
+#: Share of a spacing by which the way may be too short for the last object.
+LAST_SLACK = 1e-6
 
 
 @dataclass(frozen=True)
@@ -125,6 +137,97 @@ class OffsetPath:
         at = np.asarray(arcs, dtype=np.float64) % self.length
         closed = np.vstack([self.vertices, self.vertices[:1]])
         return np.stack([np.interp(at, self._arcs, closed[:, axis]) for axis in (0, 1)], axis=1)
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Part of an offset path.
+
+    Attributes
+    ----------
+    path : OffsetPath
+    begin : float
+        Arc length of its beginning.
+    sense : int
+        1 where it runs as the path does, -1 against it.
+    length : float
+        Scene units.
+    """
+
+    path: OffsetPath
+    begin: float
+    sense: int
+    length: float
+
+    def places(self, spacing: float, even: bool, closed: bool) -> Array:
+        """Where the objects of an array stand.
+
+        Parameters
+        ----------
+        spacing : float
+            Distance between two objects along the way, scene units.
+        even : bool
+            Whether the spacing is changed to the nearest one that leaves no rest.
+        closed : bool
+            Whether the end is the beginning.
+
+        Returns
+        -------
+        ndarray of shape (k,)
+            Distances from the beginning, along the way.
+
+        Raises
+        ------
+        InputError
+            For so small a spacing that it must be mistyped.
+        """
+        count = self.length / spacing
+        if count > MOST_OBJECTS:
+            raise InputError(
+                f"an array at a spacing of {spacing:g} would have more than {MOST_OBJECTS} objects; "
+                "give a larger spacing"
+            )
+        if even:
+            gaps = max(1, round(count))
+            spacing = self.length / gaps
+        else:
+            gaps = math.floor(count + LAST_SLACK)
+        # All round, the place after the last gap is the start again.
+        return spacing * np.arange(max(1, gaps) if closed else gaps + 1)
+
+    def points(self, places: Array) -> Array:
+        """Positions.
+
+        Parameters
+        ----------
+        places : ndarray of shape (k,)
+            Distances from the beginning.
+
+        Returns
+        -------
+        ndarray of shape (k, 2)
+        """
+        return self.path.points(self.begin + self.sense * places)
+
+    def directions(self, places: Array) -> Array:
+        """Directions of the way: at a corner that which halves the angle, at its ends its own.
+
+        Parameters
+        ----------
+        places : ndarray of shape (k,)
+            Distances from the beginning.
+
+        Returns
+        -------
+        ndarray of shape (k,)
+            Radians.
+        """
+        half = DIRECTION_STRETCH * self.path.length
+        before, after = np.maximum(places - half, 0.0), places + half
+        if self.length > half:
+            after = np.minimum(after, self.length)
+        way = self.points(after) - self.points(before)
+        return np.arctan2(way[:, 1], way[:, 0])
 
 
 def offset_paths(polygon: Polygon, offset: float, inside: bool, corners: Literal["round", "mitre"]) -> list[OffsetPath]:
