@@ -31,6 +31,9 @@ MOST_DIRECTIONS = 24
 #: Maxima taken on to exact evaluation, per grid.
 MAXIMA = 12
 
+#: Directions tried at a maximum in the plane, besides that of its strongest level set.
+AGREED_DIRECTIONS = 3
+
 
 @dataclass(frozen=True)
 class Candidates:
@@ -249,7 +252,7 @@ def accumulate_in_plane(importance: Importance, fields: Fields, free: Indices) -
 
 
 def _in_plane(importance: Importance, fields: Fields, free: Indices) -> Candidates:
-    score, direction = accumulate_in_plane(importance, fields, free)
+    score, strongest = accumulate_in_plane(importance, fields, free)
     grid = fields.grid
     sheet = np.full(len(grid), -1.0, dtype=np.float32)
     sheet[free] = score
@@ -257,7 +260,35 @@ def _in_plane(importance: Importance, fields: Fields, free: Indices) -> Candidat
     best = best[: 4 * MAXIMA]
     place = np.zeros(len(grid), dtype=np.intp)
     place[free] = np.arange(len(free))
-    return Candidates(grid.points[best], direction[place[best]].astype(np.float64))
+    maximum, direction = _agreed_directions(importance, fields, best)
+    cell = np.append(best, best[maximum])
+    return Candidates(grid.points[cell], np.append(strongest[place[best]], direction).astype(np.float64))
+
+
+def _agreed_directions(importance: Importance, fields: Fields, cells: Indices) -> tuple[Indices, Array]:
+    """Directions at maxima that most level sets agree on.
+
+    Of level sets that are about equally strong, the grid decides which one is the strongest at a point of it: its
+    direction alone would make results depend on the grid.
+
+    Returns
+    -------
+    maximum : ndarray of shape (k,), int
+        Number of the cell.
+    direction : ndarray of shape (k,)
+    """
+    bins = int(np.ceil(4 * np.pi / importance.query.options.direction_width))
+    share = np.zeros((bins, len(cells)))
+    column = np.arange(len(cells))
+    for weight, kernel, towards in _level_sets(importance, fields, cells):
+        middle = np.rint(towards * (bins / (2 * np.pi))).astype(np.intp) % bins
+        np.add.at(share, (middle, np.broadcast_to(column, middle.shape)), weight * kernel)
+    share += np.roll(share, 1, axis=0) + np.roll(share, -1, axis=0)
+    peak = (share >= np.roll(share, 1, axis=0)) & (share > np.roll(share, -1, axis=0))
+    ranked = np.sort(np.where(peak, share, 0.0), axis=0)[::-1]
+    agreed = peak & (share >= ranked[AGREED_DIRECTIONS - 1]) & (share > 0.5 * ranked[0])
+    direction, maximum = np.nonzero(agreed)
+    return maximum, 2 * np.pi * direction / bins
 
 
 def _maxima(sheet: Array32, radius: int) -> Indices:
