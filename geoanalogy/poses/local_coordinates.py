@@ -71,7 +71,9 @@ class BoundarySystem:
         self._outline = Polygon(polygon.points, label=polygon.label, orientation=polygon.orientation)
         steps = np.roll(self.ring, -1, axis=0) - self.ring
         lengths = np.hypot(*steps.T)
+        self._length = lengths
         self._unit = steps / lengths[:, None]
+        self._smooth = ~sharp_vertices(self.ring)
         self._direction = np.arctan2(steps[:, 1], steps[:, 0])
         #: Turn of the boundary at each vertex, radians, positive to the left.
         self.turn = (self._direction - np.roll(self._direction, 1) + np.pi) % (2 * np.pi) - np.pi
@@ -88,7 +90,7 @@ class BoundarySystem:
     @cached_property
     def corner_arcs(self) -> Array:
         """Arc lengths of the corners, ascending."""
-        return self.vertex_arc[sharp_vertices(self.ring)]
+        return self.vertex_arc[~self._smooth]
 
     @cached_property
     def _line(self) -> shapely.LinearRing:
@@ -208,7 +210,26 @@ class BoundarySystem:
         ndarray of shape (n,), bool
         """
         away = np.abs(located.distance)
-        return self.boundary_distance(self.points(located)) >= away * (1 - REACHED) - ZERO_LENGTH * self.perimeter
+        nearer = np.maximum(REACHED, self._facet(located))
+        return self.boundary_distance(self.points(located)) >= away * (1 - nearer) - ZERO_LENGTH * self.perimeter
+
+    def _facet(self, located: Located) -> Array:
+        """Share of its distance by which a point is nearer to the boundary because a curve was drawn as a polygon.
+
+        Every vertex on the inner side of its turn has a branch of the medial axis. A smooth one stands for a curve
+        that has none there: normals that cross at such a vertex are not held to have crossed.
+        """
+        arc = located.arc % self.perimeter
+        edge = np.searchsorted(self.vertex_arc, arc, side="right") - 1
+        share = np.zeros(len(arc))
+        for vertex, gap in (
+            (edge, arc - self.vertex_arc[edge]),
+            ((edge + 1) % len(self.turn), self.vertex_arc[edge] + self._length[edge] - arc),
+        ):
+            turn = np.abs(self.turn[vertex])
+            crossed = self._smooth[vertex] & (gap <= np.abs(located.distance) * np.tan(turn / 2))
+            share = np.maximum(share, np.where(crossed, 1 - np.cos(turn), 0.0))
+        return share
 
     def depth(self, arc: Array, share: Array) -> Array:
         """Distance from the boundary to the medial axis, along the inner normal.
