@@ -2,7 +2,27 @@
 
 from ..geoanalogy.blender.registration import register_in_order, unregister_in_order
 
-MODULES: tuple[str, ...] = ()
+MODULES = (
+    ".set_label",
+    ".set_footprint",
+    ".make_polygons",
+    ".import_plan",
+    ".propagate",
+    ".choose",
+    ".array",
+    ".transfer",
+    ".scatter",
+    ".accept",
+    ".reject",
+    ".reject_below",
+    ".forget_decisions",
+    ".explain",
+    ".replay",
+    ".clear",
+    ".remove_operation",
+    ".move_operation",
+    ".mute_operation",
+)
 
 
 def register():

@@ -1,11 +1,15 @@
 """The bridge between the engine and Blender: the only package of the engine that knows Blender.
 
 Its modules are imported by `register()`, so that reading this file asks for no Blender.
+
+Reading order: `names`; `planes`, `shapes` and `ground`, from objects to scenes; `footprints`; `tree_types` and
+`tree_store`, the operations tree in the .blend; `evaluating`, `lessons` and `recording`, from an example to its
+results; `instances`, which shows them; `refresh` and `corrections`, which sift them; `replay`.
 """
 
 from .registration import register_in_order, unregister_in_order
 
-MODULES = (".command",)
+MODULES = (".command", ".properties", ".tree_types", ".refresh", ".handlers")
 
 
 def register():

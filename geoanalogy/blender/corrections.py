@@ -1,0 +1,153 @@
+"""Corrections by hand: results accepted, rejected, or kept where the user has moved them."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import bpy
+import numpy as np
+
+from ..errors import InputError
+from ..operations.decisions import Decisions, Pin
+from ..operations.node import Node
+from ..poses.pose import Pose
+from ..tolerances import CONTAINED_SHARE
+from . import names
+from .evaluating import mark_stale
+from .footprints import pose_of
+from .refresh import proposed_by, show, stored_layout
+from .tree_store import engine_node, require_operations, write_operation
+
+#: Distance, in scene units, and angle, in radians, from its place below which a result has not been moved: single
+#: precision at a kilometre from the origin.
+UNMOVED = 1e-3
+
+
+def selected_results(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """The results among the selected objects.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+
+    Returns
+    -------
+    list of bpy.types.Object
+    """
+    return [item for item in context.selected_objects if names.KEY in item]
+
+
+def decide(context: bpy.types.Context, items: Iterable[bpy.types.Object], verdict: str) -> int:
+    """Accept or reject results; those that were moved by hand are kept where they are when they are accepted.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    items : iterable of bpy.types.Object
+        Results.
+    verdict : {"accept", "reject", "forget"}
+
+    Returns
+    -------
+    int
+        How many were decided on.
+
+    Raises
+    ------
+    InputError
+        Where there are none, their operation is gone, or one to be kept lies outside every polygon.
+    """
+    tree = require_operations(context.scene)
+    by_node: dict[str, list[bpy.types.Object]] = {}
+    for item in items:
+        by_node.setdefault(item[names.NODE], []).append(item)
+    if not by_node:
+        raise InputError(f"no result is selected; select objects in the collection {names.COLLECTION!r}")
+    missing = sorted(set(by_node) - {node.name for node in tree.nodes})
+    if missing:
+        raise InputError(f"the operation {missing[0]!r} is no longer there; replay, and its results will go")
+    changed = []
+    for name, group in by_node.items():
+        node = tree.nodes[name]
+        engine = engine_node(node)
+        decisions = engine.operation.decisions
+        pins = _pins(context, node, group) if verdict == "accept" else {}
+        for key in dict.fromkeys(item[names.KEY] for item in group):
+            decisions = decisions.pin(key, pins[key]) if key in pins else getattr(decisions, verdict)(key)
+        changed.append((node, engine, decisions))
+    for node, engine, decisions in changed:
+        _write_decisions(context, node, engine, decisions)
+    return sum(len(group) for group in by_node.values())
+
+
+def reject_below(context: bpy.types.Context, node: bpy.types.Node) -> int:
+    """Reject all results of an operation below its threshold, so that a lower one does not bring them back.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    node : bpy.types.Node
+
+    Returns
+    -------
+    int
+        How many.
+    """
+    engine = engine_node(node)
+    threshold = getattr(engine.operation, "threshold", 0.0)
+    decisions = engine.operation.decisions
+    kept = {*decisions.accepted, *decisions.pinned, *decisions.rejected}
+    below = [e.key for e in proposed_by(node) if e.importance < threshold and not e.example and e.key not in kept]
+    for key in below:
+        decisions = decisions.reject(key)
+    _write_decisions(context, node, engine, decisions)
+    return len(below)
+
+
+def forget_all(context: bpy.types.Context, node: bpy.types.Node) -> int:
+    """Take back all decisions about an operation's results.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    node : bpy.types.Node
+
+    Returns
+    -------
+    int
+        How many there were.
+    """
+    engine = engine_node(node)
+    decisions = engine.operation.decisions
+    _write_decisions(context, node, engine, Decisions())
+    return len({*decisions.accepted, *decisions.rejected, *decisions.pinned})
+
+
+def _write_decisions(context: bpy.types.Context, node: bpy.types.Node, engine: Node, decisions: Decisions) -> None:
+    write_operation(node, replace(engine, operation=replace(engine.operation, decisions=decisions)))
+    show(context.scene, node)
+    mark_stale(node.id_data, node)
+
+
+def _pins(context: bpy.types.Context, node: bpy.types.Node, items: Iterable[bpy.types.Object]) -> dict[str, Pin]:
+    """Where those results stand that have been moved, by their keys."""
+    ground, layout = stored_layout(context.scene, node)
+    proposed = {e.key: e for e in proposed_by(node)}
+    found = {}
+    for item in items:
+        e = proposed.get(item[names.KEY])
+        pose = pose_of(item, ground.plane)
+        if e is None or _is_at(pose, e.pose):
+            continue
+        pose = replace(pose, mirrored=e.pose.mirrored)
+        ring = pose.to_scene(e.scale * np.array(e.footprint or [(0.0, 0.0)]))
+        parent = layout.scene.parent_of_shape(ring, CONTAINED_SHARE) if e.footprint else None
+        parent = parent or layout.scene.parent_of(pose.position)
+        if parent is None:
+            raise InputError(f"object {item.name!r} lies outside every polygon; put it into one to keep it there")
+        found[e.key] = Pin.of(pose, parent, e.scale)
+    return found
+
+
+def _is_at(one: Pose, other: Pose) -> bool:
+    turned = abs(np.angle(np.exp(1j * (one.angle - other.angle))))
+    return bool(np.hypot(*np.subtract(one.position, other.position)) < UNMOVED and turned < UNMOVED)

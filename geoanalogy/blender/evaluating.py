@@ -1,0 +1,223 @@
+"""Evaluating a scene's operations tree, and writing what comes of it.
+
+Everything is read before the first step and written after the last one, so that work that is cancelled or fails leaves
+the scene as it was.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from time import perf_counter
+from typing import Any
+
+import bpy
+
+from ..errors import InputError
+from ..operations.element import Element
+from ..operations.evaluation import Evaluations
+from ..operations.layout import Layout
+from ..operations.node import Node
+from ..operations.tree import OperationsTree
+from ..progress import Stepper
+from . import names
+from .ground import Ground, read_grounds
+from .instances import write_results
+from .planes import Plane
+from .proposals import write_proposals
+from .refresh import examples_of, ground_for
+from .tree_store import engine_tree, ordered_nodes, placed_by, plane_of, sources_of, tree_of
+
+
+class TimedEvaluations(Evaluations):
+    """What nodes have proposed, and how long each took when it was last computed.
+
+    Attributes
+    ----------
+    proposed : dict of str to object
+        By the node's id, of its last evaluation.
+    seconds : dict of str to float
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.proposed: dict[str, Any] = {}
+        self.seconds: dict[str, float] = {}
+
+    def proposal(self, node: Node, layout: Layout, seed: int) -> Stepper[Any]:
+        """What a node proposes; what was computed for it is timed."""
+        computed, started = self.evaluated, perf_counter()
+        proposed = yield from super().proposal(node, layout, seed)
+        self.proposed[node.id] = proposed
+        if self.evaluated > computed:
+            self.seconds[node.id] = perf_counter() - started
+        return proposed
+
+    def clear(self) -> None:
+        """Forget everything."""
+        for kept in (self._kept, self.proposed, self.seconds):
+            kept.clear()
+
+
+#: What has been evaluated in this session, by content: nothing in it is ever out of date.
+evaluations = TimedEvaluations()
+
+
+@dataclass
+class Surroundings:
+    """What an operation on a plane starts from.
+
+    Attributes
+    ----------
+    scene : bpy.types.Scene
+    depsgraph : bpy.types.Depsgraph
+    tree : bpy.types.NodeTree or None
+        None before the first operation.
+    ground : Ground
+    nodes : list of bpy.types.Node
+        The operations on that plane, inputs first.
+    engine : OperationsTree
+        The same as the engine's.
+    """
+
+    scene: bpy.types.Scene
+    depsgraph: bpy.types.Depsgraph
+    tree: bpy.types.NodeTree | None
+    ground: Ground
+    nodes: list[bpy.types.Node]
+    engine: OperationsTree
+
+    @property
+    def plane(self) -> Plane:
+        """The plane of the ground."""
+        return self.ground.plane
+
+    @property
+    def seed(self) -> int:
+        """The tree's seed."""
+        return 0 if self.tree is None else self.tree.seed
+
+
+def read_surroundings(context: bpy.types.Context, items: Iterable[bpy.types.Object] = ()) -> list[Surroundings]:
+    """Read a scene: its planes and the operations on each.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    items : iterable of bpy.types.Object
+        Objects that do not count as ground, besides the examples of operations.
+
+    Returns
+    -------
+    list of Surroundings
+        One per plane, the largest first.
+
+    Raises
+    ------
+    InputError
+        For what cannot be used, naming the object or the operation.
+    """
+    scene = context.scene
+    context.view_layer.update()
+    depsgraph = context.evaluated_depsgraph_get()
+    tree = tree_of(scene)
+    without = examples_of(tree) | {item.name for item in items}
+    grounds = read_grounds(scene, depsgraph, without)
+    nodes = ordered_nodes(tree)
+    where = {node.name: ground_for(grounds, plane_of(node)) for node in nodes}
+    for node in nodes:
+        # A node goes where its source is: it builds on what that has placed.
+        for source, _ in sources_of(node):
+            where[node.name] = where[source.name]
+    found = []
+    for ground in grounds:
+        own = [node for node in nodes if where[node.name] is ground]
+        found.append(Surroundings(scene, depsgraph, tree, ground, own, engine_tree(own, evaluations)))
+    return found
+
+
+def incoming_steps(around: Surroundings, node: str) -> Stepper[Layout]:
+    """What comes in to a node, as a stepper.
+
+    Parameters
+    ----------
+    around : Surroundings
+    node : str
+
+    Returns
+    -------
+    generator of (float, str)
+        Returns the layout.
+    """
+    # A muted node passes on what comes in.
+    muted = around.engine.with_node(replace(around.engine.node(node), muted=True))
+    return muted.layout_steps(around.ground.scene, node, around.seed)
+
+
+def write_node(around: Surroundings, node: bpy.types.Node, elements: Iterable[Element]) -> int:
+    """Write what an evaluated node has proposed, and show what has passed.
+
+    Parameters
+    ----------
+    around : Surroundings
+    node : bpy.types.Node
+    elements : iterable of Element
+        What has passed; those of other nodes are left out.
+
+    Returns
+    -------
+    int
+        How many results stand there.
+    """
+    if not node.mute:
+        # Selections propose other things than elements; they place nothing.
+        proposed = (e for e in evaluations.proposed.get(node.name, ()) if isinstance(e, Element))
+        node[names.RESULTS] = write_proposals(proposed)
+        node[names.SECONDS] = evaluations.seconds.get(node.name, 0.0)
+    for key in (names.STALE, names.PROBLEM):
+        node.pop(key, None)
+    own = [] if node.mute else [e for e in elements if e.node == node.name]
+    node[names.COUNT] = write_results(around.scene, node.name, own, placed_by(node), around.plane)
+    return node[names.COUNT]
+
+
+def mark_stale(tree: bpy.types.NodeTree, node: bpy.types.Node) -> None:
+    """Mark the operations that build on a node: they were evaluated before it changed.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree
+    node : bpy.types.Node
+    """
+    changed = {node.name}
+    for other in ordered_nodes(tree):
+        if any(source.name in changed for source, _ in sources_of(other)):
+            changed.add(other.name)
+            other[names.STALE] = True
+
+
+def surroundings_of(around: list[Surroundings], item: bpy.types.Object) -> Surroundings:
+    """The plane that an object stands on.
+
+    Parameters
+    ----------
+    around : list of Surroundings
+    item : bpy.types.Object
+
+    Returns
+    -------
+    Surroundings
+        Of the planes on which a polygon lies below its origin the nearest, else of all.
+
+    Raises
+    ------
+    InputError
+        Where the matrix of the object is not finite.
+    """
+    origin = item.matrix_world.translation
+    if not all(abs(v) < float("inf") for v in origin):
+        raise InputError(f"object {item.name!r} has a location that is not finite; clear its transform")
+
+    def rank(one: Surroundings) -> tuple[bool, float]:
+        x, y, height = one.plane.to_plane([origin])[0]
+        return one.ground.scene.parent_of((x, y)) is None, abs(height)
+
+    return min(around, key=rank)

@@ -1,0 +1,269 @@
+"""The ground: the labelled objects of a Blender scene as arrangements of polygons, one for each plane.
+
+An object with a label (its own, or that of a collection it is in) is part of the ground, and so is everything in the
+scene's plan collection. What is drawn flat counts as drawn; what is solid, or has a footprint of its own, counts by its
+footprint. Results of operations and their examples are left out: they come from the operations tree.
+"""
+
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from ..geometry.memory import Memory
+from ..geometry.polygon import Polygon, signed_area
+from ..geometry.scene import Scene
+from . import names
+from .footprints import footprint_ring_of
+from .planes import Plane, best_plane, extent
+from .shapes import KINDS, Ring, rings_of
+
+Array = NDArray[np.float64]
+
+#: What was derived from scenes; it is kept by content, so that nothing in it is ever out of date.
+memory = Memory()
+
+
+@dataclass(frozen=True)
+class Ground:
+    """What lies on one plane.
+
+    Attributes
+    ----------
+    plane : Plane
+    scene : Scene
+        Ids are the objects' names, with a number behind a slash where an object has several polygons.
+    """
+
+    plane: Plane
+    scene: Scene
+
+
+@dataclass
+class _Drawn:
+    """An object that is drawn flat."""
+
+    item: bpy.types.Object
+    rings: list[Ring]
+    plane: Plane
+    size: float
+
+
+@dataclass
+class _Layer:
+    """A plane, and what is found to lie on it."""
+
+    plane: Plane
+    size: float
+    polygons: dict[str, list[Polygon]] = field(default_factory=dict)
+
+
+def results_collection(scene: bpy.types.Scene) -> bpy.types.Collection | None:
+    """The collection that holds a scene's results.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+
+    Returns
+    -------
+    bpy.types.Collection or None
+        None before the first operation.
+    """
+    return next((c for c in scene.collection.children if c.get(names.NODE) == names.COLLECTION), None)
+
+
+def labels_of(scene: bpy.types.Scene) -> dict[str, str]:
+    """The label of every object of a scene that has one.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+
+    Returns
+    -------
+    dict of str to str
+        By the object's name: its own label, else that of a labelled collection it is in, else the name of the
+        collection inside the plan collection.
+    """
+    plan = scene.geoanalogy.plan
+    found: dict[str, str] = {}
+    inside = set() if plan is None else {c.name for c in plan.children_recursive}
+    for holder in scene.collection.children_recursive:
+        label = holder.get(names.LABEL)
+        if label is None and holder.name in inside:
+            label = holder.name
+        if label is not None:
+            for item in holder.objects:
+                found.setdefault(item.name, str(label) or holder.name)
+    for item in scene.objects:
+        own = item.get(names.LABEL)
+        if own is not None and str(own):
+            found[item.name] = str(own)
+    return found
+
+
+def label_of(item: bpy.types.Object, scene: bpy.types.Scene) -> str:
+    """The label of an object.
+
+    Parameters
+    ----------
+    item : bpy.types.Object
+    scene : bpy.types.Scene
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    InputError
+        Where it has none.
+    """
+    label = labels_of(scene).get(item.name, "")
+    if not label:
+        raise InputError(f"object {item.name!r} has no label; say what it is in step 1, or label its collection")
+    return label
+
+
+def read_grounds(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, without: Collection[str] = ()) -> list[Ground]:
+    """The arrangements of a Blender scene.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    depsgraph : bpy.types.Depsgraph
+        Of that scene, up to date.
+    without : collection of str
+        Names of objects that do not count: examples of operations.
+
+    Returns
+    -------
+    list of Ground
+        The largest first; polygons in the order of their names.
+
+    Raises
+    ------
+    InputError
+        For what cannot be used, naming the object; where nothing is labelled.
+    """
+    labels = labels_of(scene)
+    plan = scene.geoanalogy.plan
+    results = results_collection(scene)
+    made = set() if results is None else {item.name for item in results.all_objects}
+    planned = set() if plan is None else {item.name for item in plan.all_objects}
+    drawn, solid = [], []
+    for item in sorted(scene.objects, key=lambda item: item.name):
+        name = item.name
+        if name in made or name in without or item.type not in KINDS or not (name in labels or name in planned):
+            continue
+        if name not in labels:
+            raise InputError(f"object {name!r} of the plan has no label; say what it is in step 1")
+        flat = _drawn(item, depsgraph)
+        if flat is None:
+            solid.append(item)
+        else:
+            drawn.append(flat)
+    if not drawn:
+        raise InputError(
+            "the scene has no labelled outlines; label the plan's meshes, curves or strokes in step 1, or import a plan"
+        )
+    layers: list[_Layer] = []
+    for flat in sorted(drawn, key=lambda d: (-d.size, d.item.name)):
+        layer = next((one for one in layers if one.plane.is_coplanar(flat.plane, max(one.size, flat.size))), None)
+        if layer is None:
+            layers.append(layer := _Layer(flat.plane, flat.size))
+        layer.polygons[flat.item.name] = _polygons(flat, layer.plane, labels[flat.item.name])
+    for item in solid:
+        layer = min(layers, key=lambda one: abs(one.plane.to_plane([item.matrix_world.translation])[0, 2]))
+        ring = footprint_ring_of(item, layer.plane, depsgraph)
+        layer.polygons[item.name] = [_polygon(item, layer.plane, [ring], item.name, labels[item.name])]
+    return [_ground(layer) for layer in layers]
+
+
+def _ground(layer: _Layer) -> Ground:
+    polygons = [p for name in sorted(layer.polygons) for p in layer.polygons[name]]
+    return Ground(layer.plane, Scene(polygons, memory=memory))
+
+
+def _drawn(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> _Drawn | None:
+    """The object as drawn; None where it is a solid."""
+    if names.FOOTPRINT in item or item.type not in ("MESH", "CURVE", "GREASEPENCIL"):
+        return None
+    rings = rings_of(item, depsgraph)
+    name = f"object {item.name!r}"
+    if not rings:
+        if item.type == "MESH" and len(item.data.polygons):
+            return None  # a closed solid has no outline
+        raise InputError(f"{name} has no closed line; draw its outline, or take its label away")
+    plane = best_plane([r.points for r in rings], name)
+    if plane is None and item.type != "MESH":
+        raise InputError(f"{name} is not flat; draw it on a plane")
+    points = np.vstack([r.points for r in rings])
+    if plane is None or (item.type == "MESH" and _stands_out(item, plane, extent(points))):
+        return None
+    return _Drawn(item, rings, plane, extent(points))
+
+
+def _stands_out(item: bpy.types.Object, plane: Plane, size: float) -> bool:
+    """Whether a mesh whose outlines are flat has vertices off their plane: a tent, a cup."""
+    corners = np.array(item.bound_box) @ np.array(item.matrix_world)[:3, :3].T + np.array(item.matrix_world)[:3, 3]
+    return bool(np.ptp(plane.to_plane(corners)[:, 2]) > 0.02 * size)
+
+
+def _polygons(flat: _Drawn, plane: Plane, label: str) -> list[Polygon]:
+    regions: dict[int, list[Ring]] = {}
+    for ring in flat.rings:
+        regions.setdefault(ring.region, []).append(ring)
+    found = []
+    parts = [part for rings in regions.values() for part in _nested(rings, plane)]
+    for i, (rings, own) in enumerate(parts):
+        id = flat.item.name if len(parts) == 1 else f"{flat.item.name}/{i}"
+        found.append(_polygon(flat.item, plane, rings, id, own or label))
+    return found
+
+
+def _nested(rings: list[Ring], plane: Plane) -> Iterable[tuple[list[Array], str]]:
+    """The polygons of a region: outlines, each with the rings inside it as holes."""
+    flat = [(plane.to_plane(ring.points)[:, :2], ring.label) for ring in rings]
+    if len(flat) == 1:
+        return [([flat[0][0]], flat[0][1])]
+    flat.sort(key=lambda entry: -abs(signed_area(entry[0])))
+    outlines: list[tuple[list[Array], str]] = []
+    for points, label in flat:
+        holder = next((o for o in outlines if _holds(o[0][0], points[0])), None)
+        within_hole = holder is not None and any(_holds(hole, points[0]) for hole in holder[0][1:])
+        if holder is None or within_hole:
+            outlines.insert(0 if within_hole else len(outlines), ([points], label))
+        else:
+            holder[0].append(points)
+    return outlines
+
+
+def _holds(ring: Array, point: Array) -> bool:
+    """Whether a point lies in a ring, by the crossings of a ray."""
+    a, b = ring, np.roll(ring, -1, axis=0)
+    spans = (a[:, 1] > point[1]) != (b[:, 1] > point[1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        x = a[:, 0] + (point[1] - a[:, 1]) * (b[:, 0] - a[:, 0]) / (b[:, 1] - a[:, 1])
+    return bool((spans & (point[0] < x)).sum() % 2)
+
+
+def _polygon(item: bpy.types.Object, plane: Plane, rings: list[Array], id: str, label: str) -> Polygon:
+    orientation = item.get(names.ORIENTATION)
+    if orientation is not None:
+        x, y = plane.to_plane(np.array(item.matrix_world)[:3, 0] + plane.frame[:3, 3])[:2]
+        orientation = float(orientation) + float(np.arctan2(y, x))
+    segments = item.get(names.SEGMENT_LABELS)
+    return Polygon(
+        rings[0],
+        label=label,
+        id=id,
+        holes=rings[1:],
+        parent=item.get(names.PARENT) or None,
+        orientation=orientation,
+        segment_labels=None if segments is None else [part.strip() for part in str(segments).split(",")],
+    )

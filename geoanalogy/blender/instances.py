@@ -1,0 +1,202 @@
+"""Results as objects: copies of the example that share its data, in one collection, with a collection per operation.
+
+Only what carries the name of a node and a key is ever deleted; whatever else a user puts into these collections stays.
+"""
+
+from collections.abc import Iterable, Sequence
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+from numpy.typing import NDArray
+
+from ..operations.element import Element
+from . import names
+from .footprints import frame_of
+from .ground import results_collection
+from .planes import Plane
+from .tree_store import Placed
+
+Array = NDArray[np.float64]
+
+
+def ensure_results_collection(scene: bpy.types.Scene) -> bpy.types.Collection:
+    """The collection that holds a scene's results, made where there is none.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+
+    Returns
+    -------
+    bpy.types.Collection
+    """
+    holder = results_collection(scene)
+    if holder is None:
+        holder = bpy.data.collections.new(names.COLLECTION)
+        holder[names.NODE] = names.COLLECTION
+        scene.collection.children.link(holder)
+    return holder
+
+
+def collection_of(scene: bpy.types.Scene, node: str) -> bpy.types.Collection | None:
+    """The collection of one operation's results.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    node : str
+        Name of the node.
+
+    Returns
+    -------
+    bpy.types.Collection or None
+    """
+    holder = results_collection(scene)
+    return None if holder is None else next((c for c in holder.children if c.get(names.NODE) == node), None)
+
+
+def results_in(holder: bpy.types.Collection) -> list[bpy.types.Object]:
+    """The results in a collection, without what a user has put there.
+
+    Parameters
+    ----------
+    holder : bpy.types.Collection
+
+    Returns
+    -------
+    list of bpy.types.Object
+    """
+    return [item for item in holder.objects if names.KEY in item]
+
+
+def write_results(
+    scene: bpy.types.Scene, node: str, elements: Sequence[Element], placed: Iterable[Placed], plane: Plane
+) -> int:
+    """Show the results of one operation in place of those shown before.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    node : str
+        Name of the node.
+    elements : sequence of Element
+        In order. An example is shown only where its object is not in the scene itself.
+    placed : iterable of Placed
+        The objects by their names in the operation; elements of others are left out.
+    plane : Plane
+
+    Returns
+    -------
+    int
+        How many objects stand there now.
+    """
+    outer = ensure_results_collection(scene)
+    holder = collection_of(scene, node)
+    if holder is None:
+        holder = bpy.data.collections.new(node)
+        holder[names.NODE] = node
+        outer.children.link(holder)
+    delete_results(holder)
+    by_mesh = {one.mesh: one for one in placed if one.item is not None}
+    there = {one.mesh for one in by_mesh.values() if scene.objects.get(one.item.name) == one.item}
+    count = 0
+    for e in elements:
+        one = by_mesh.get(e.mesh)
+        if one is None or (e.example and e.mesh in there):
+            continue
+        count += 1
+        made = one.item.copy()
+        made.name = f"{node} {count:03d}"
+        made[names.NODE], made[names.KEY] = node, e.key
+        _stand(made, e, one.rest, plane)
+        holder.objects.link(made)
+        _copy_children(one.item, made, holder, e)
+    return count
+
+
+def _stand(made: bpy.types.Object, e: Element, rest: Array, plane: Plane) -> None:
+    """Put an object where an element stands: its own scale and tilt, mirrored by a negative y scale."""
+    made.parent = None
+    made.animation_data_clear()
+    for constraint in list(made.constraints):
+        made.constraints.remove(constraint)
+    frame = Matrix(frame_of(e.pose, plane).tolist())
+    location, rotation, scale = Matrix(rest.tolist()).decompose()
+    turn = rotation.to_matrix()
+    if e.pose.mirrored:
+        mirror = Matrix.Diagonal((1.0, -1.0, 1.0))
+        # Reflecting the rested object is turning it the other way round and reflecting it in its own frame.
+        location, turn = mirror @ location, mirror @ turn @ mirror
+        scale.y = -scale.y
+    made.rotation_mode = "XYZ"
+    made.matrix_parent_inverse.identity()
+    made.delta_location = made.delta_rotation_euler = (0.0, 0.0, 0.0)
+    made.delta_scale = (1.0, 1.0, 1.0)
+    made.location = frame @ (e.scale * location)
+    made.rotation_euler = (frame.to_3x3() @ turn).to_euler("XYZ")
+    made.scale = e.scale * scale
+
+
+def _copy_children(example: bpy.types.Object, made: bpy.types.Object, holder: bpy.types.Collection, e: Element) -> None:
+    for child in example.children:
+        if names.KEY in child:
+            continue
+        copy = child.copy()
+        copy.parent = made
+        copy[names.NODE], copy[names.KEY] = e.node, e.key
+        holder.objects.link(copy)
+        _copy_children(child, copy, holder, e)
+
+
+def delete_results(holder: bpy.types.Collection) -> None:
+    """Delete the results in a collection.
+
+    Parameters
+    ----------
+    holder : bpy.types.Collection
+    """
+    bpy.data.batch_remove(results_in(holder))
+
+
+def clear_results(scene: bpy.types.Scene, nodes: Iterable[str] | None = None) -> None:
+    """Delete results, and the collections that hold nothing else.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    nodes : iterable of str, optional
+        Names of the nodes whose results go; None: all, and the outer collection with them.
+    """
+    outer = results_collection(scene)
+    if outer is None:
+        return
+    chosen = None if nodes is None else set(nodes)
+    for holder in list(outer.children):
+        if names.NODE in holder and (chosen is None or holder[names.NODE] in chosen):
+            delete_results(holder)
+            if not holder.all_objects:
+                bpy.data.collections.remove(holder)
+    if chosen is None and not outer.all_objects and not outer.children:
+        bpy.data.collections.remove(outer)
+
+
+def arrange_collections(scene: bpy.types.Scene, nodes: Sequence[str]) -> None:
+    """Put the collections of operations into an order, so that it does not depend on what was shown first.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    nodes : sequence of str
+        Names of the nodes in order.
+    """
+    outer = results_collection(scene)
+    if outer is None:
+        return
+    rank = {name: i for i, name in enumerate(nodes)}
+    made = [c for c in outer.children if c.get(names.NODE) in rank]
+    wanted = sorted(made, key=lambda c: rank[c[names.NODE]])
+    if made != wanted:
+        for holder in wanted:
+            outer.children.unlink(holder)
+            outer.children.link(holder)

@@ -1,0 +1,60 @@
+"""Long work in slices: what a modal operator does between two looks at the keyboard."""
+
+from time import perf_counter
+from typing import Any
+
+from ..progress import Stepper
+
+#: Seconds that a slice takes at the most, but for a single long step: the window goes on drawing.
+SLICE = 0.02
+
+
+class Job:
+    """A stepper that is advanced in slices.
+
+    Parameters
+    ----------
+    stepper : generator of (float, str)
+
+    Attributes
+    ----------
+    fraction : float
+        How much is done, 0 to 1.
+    text : str
+        What is being done.
+    finished : bool
+        Whether it has come to its end.
+    result : object
+        What the stepper returned.
+    """
+
+    def __init__(self, stepper: Stepper[Any]) -> None:
+        self._stepper = stepper
+        self.fraction, self.text = 0.0, ""
+        self.finished = False
+        self.result: Any = None
+
+    def advance(self, seconds: float = SLICE) -> None:
+        """Take steps until the time is up or the work is done.
+
+        Parameters
+        ----------
+        seconds : float
+
+        Raises
+        ------
+        InputError
+            What a step raised; the work is over then.
+        """
+        until = perf_counter() + seconds
+        while not self.finished:
+            try:
+                self.fraction, self.text = next(self._stepper)
+            except StopIteration as end:
+                self.finished, self.result = True, end.value
+            if perf_counter() >= until:
+                return
+
+    def cancel(self) -> None:
+        """Stop between two steps; nothing has been written."""
+        self._stepper.close()

@@ -1,0 +1,41 @@
+"""The names under which GeoAnalogy keeps things in a .blend: custom properties, collections, identifiers of types.
+
+Whoever makes scenes by a script sets the custom properties of objects by these names.
+"""
+
+#: On objects, collections and materials: what kind of thing it is. An empty label of a collection means its name.
+LABEL = "ga_label"
+
+#: On objects: name of the object that is the parent (none: found by containment).
+PARENT = "ga_parent"
+
+#: On objects: direction of the polygon's x axis, radians from the object's own x axis (none: derived).
+ORIENTATION = "ga_orientation"
+
+#: On objects: a label per edge, separated by commas, in the order of the outline's vertices.
+SEGMENT_LABELS = "ga_segment_labels"
+
+#: On objects: the outline on the ground as numbers x, y, x, y, … in the object's own coordinates.
+FOOTPRINT = "ga_footprint"
+
+#: On mesh objects: "joined" (faces that share edges are one polygon) or "each" (every face is one).
+FACES = "ga_faces"
+
+#: On objects: name of the object that stands for it when results are validated, such as a door with its swing.
+VALIDATION = "ga_validation"
+
+#: On results: the node that made them, and their key among its results.
+NODE, KEY = "ga_node", "ga_key"
+
+#: The collection that holds all results, with a collection per operation.
+COLLECTION = "GeoAnalogy"
+
+#: Identifiers of the node tree, its nodes and its sockets.
+TREE, OPERATION_NODE, LAYOUT_SOCKET = "GeoAnalogyTree", "GeoAnalogyOperation", "GeoAnalogyLayout"
+
+#: On nodes: the operation as nested properties, and what it has proposed.
+OPERATION, RESULTS, EXAMPLES, FRAME = "operation", "results", "examples", "frame"
+
+#: On nodes: how many results stand there, how long it took, whether something upstream has changed since, and what is
+#: wrong with it.
+COUNT, SECONDS, STALE, PROBLEM = "count", "seconds", "stale", "problem"

@@ -1,0 +1,162 @@
+"""Planes in space and the frame on each of them: where flat polygons become two-dimensional, and results go back.
+
+Coplanar things share a frame. On a level plane its axes are the world's x and y, and its origin lies above or below the
+world's, so that plane coordinates are world coordinates; on any other plane x runs level and y upwards.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import InputError
+
+Array = NDArray[np.float64]
+
+#: Sine of the angle between two planes, or between a plane and the level, below which they are parallel: half a degree,
+#: more than single precision and a hasty hand leave.
+PARALLEL = 0.009
+
+#: Distance from its plane, in sizes of a shape, below which the shape is flat.
+FLAT = 0.005
+
+#: Distance between two parallel planes, in sizes of what lies on them, below which they are one: a carpet on a floor.
+SAME_PLANE = 0.02
+
+
+@dataclass(frozen=True)
+class Plane:
+    """A plane with its frame.
+
+    Attributes
+    ----------
+    frame : ndarray of shape (4, 4)
+        From plane coordinates (x, y, height, 1) to the world's; its columns are the axes, orthonormal, and the origin.
+    """
+
+    frame: Array
+
+    @classmethod
+    def through(cls, point: ArrayLike, normal: ArrayLike) -> "Plane":
+        """The plane through a point, in its canonical frame.
+
+        Parameters
+        ----------
+        point, normal : array_like of shape (3,)
+            World coordinates; the normal's length does not matter, of level planes nor its sign: they are seen from
+            above.
+
+        Returns
+        -------
+        Plane
+        """
+        n = np.asarray(normal, float) / np.linalg.norm(normal)
+        frame = np.eye(4)
+        if np.hypot(n[0], n[1]) < PARALLEL:
+            frame[2, 3] = np.asarray(point, float)[2]
+            return cls(frame)
+        x = np.array([-n[1], n[0], 0.0]) / np.hypot(n[0], n[1])
+        frame[:3, 0], frame[:3, 1], frame[:3, 2] = x, np.cross(n, x), n
+        frame[:3, 3] = n * np.dot(n, np.asarray(point, float))
+        return cls(frame)
+
+    @property
+    def normal(self) -> Array:
+        """Unit normal in the world, shape (3,)."""
+        return self.frame[:3, 2]
+
+    def to_plane(self, points: ArrayLike) -> Array:
+        """World points in plane coordinates: x, y and height above the plane.
+
+        Parameters
+        ----------
+        points : array_like of shape (n, 3)
+
+        Returns
+        -------
+        ndarray of shape (n, 3)
+        """
+        return (np.asarray(points, float) - self.frame[:3, 3]) @ self.frame[:3, :3]
+
+    def to_world(self, points: ArrayLike) -> Array:
+        """The inverse of `to_plane`.
+
+        Parameters
+        ----------
+        points : array_like of shape (n, 3)
+
+        Returns
+        -------
+        ndarray of shape (n, 3)
+        """
+        return np.asarray(points, float) @ self.frame[:3, :3].T + self.frame[:3, 3]
+
+    def is_coplanar(self, other: "Plane", size: float) -> bool:
+        """Whether another plane is this one, seen from either side, for things of a size.
+
+        Parameters
+        ----------
+        other : Plane
+        size : float
+            Scene units.
+
+        Returns
+        -------
+        bool
+        """
+        parallel = np.linalg.norm(np.cross(self.normal, other.normal)) < PARALLEL
+        gap = abs(np.dot(self.normal, other.frame[:3, 3] - self.frame[:3, 3]))
+        return bool(parallel and gap <= SAME_PLANE * size)
+
+
+def extent(points: Array) -> float:
+    """Diagonal of the box around points.
+
+    Parameters
+    ----------
+    points : ndarray of shape (n, d)
+
+    Returns
+    -------
+    float
+        0 without points.
+    """
+    return float(np.linalg.norm(np.ptp(points, axis=0))) if len(points) else 0.0
+
+
+def best_plane(rings: Sequence[Array], name: str) -> Plane | None:
+    """The plane that rings in space lie on.
+
+    Parameters
+    ----------
+    rings : sequence of ndarray of shape (n, 3)
+        World coordinates.
+    name : str
+        What they are called in messages.
+
+    Returns
+    -------
+    Plane or None
+        None where they lie on no common plane.
+
+    Raises
+    ------
+    InputError
+        Where they have no area, or coordinates that are not finite.
+    """
+    points = np.vstack(rings)
+    if not np.isfinite(points).all():
+        raise InputError(f"{name} has a coordinate that is not finite (NaN or infinity); correct or delete that vertex")
+    middle = points.mean(axis=0)
+    size = extent(points)
+    _, lengths, axes = np.linalg.svd(points - middle, full_matrices=False)
+    if len(lengths) < 3 or lengths[1] <= 1e-6 * max(lengths[0], np.finfo(float).tiny):
+        raise InputError(f"{name} has no area; give a ring that encloses one")
+    normal = axes[2]
+    if np.abs((points - middle) @ normal).max() > FLAT * size:
+        return None
+    # Of the two sides, the one from which the first ring runs counter-clockwise.
+    first = rings[0] - middle
+    area = np.cross(first, np.roll(first, -1, axis=0)).sum(axis=0)
+    return Plane.through(middle, normal if np.dot(area, normal) >= 0 else -normal)

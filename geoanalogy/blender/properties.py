@@ -1,0 +1,38 @@
+"""What GeoAnalogy keeps with each scene of a file."""
+
+import bpy
+from bpy.props import PointerProperty
+
+from . import names
+
+
+def _is_operations_tree(self, tree):
+    return tree.bl_idname == names.TREE
+
+
+class GEOANALOGY_PG_scene(bpy.types.PropertyGroup):
+    """A scene's plan and its operations."""
+
+    plan: PointerProperty(
+        name="Plan",
+        type=bpy.types.Collection,
+        description="Everything in this collection is part of the plan; collections inside it name what they hold",
+    )
+    tree: PointerProperty(
+        name="Operations",
+        type=bpy.types.NodeTree,
+        poll=_is_operations_tree,
+        description="The operations tree of this scene",
+    )
+
+
+def register():
+    """Give every scene its properties."""
+    bpy.utils.register_class(GEOANALOGY_PG_scene)
+    bpy.types.Scene.geoanalogy = PointerProperty(type=GEOANALOGY_PG_scene)
+
+
+def unregister():
+    """Take them back."""
+    del bpy.types.Scene.geoanalogy
+    bpy.utils.unregister_class(GEOANALOGY_PG_scene)

@@ -1,0 +1,56 @@
+"""What an operation has proposed, as text that a .blend keeps: results can be sifted again without computing them."""
+
+import json
+from collections.abc import Iterable
+
+from ..operations.element import Element
+from ..poses.pose import Pose
+
+
+def write_proposals(elements: Iterable[Element]) -> str:
+    """Elements of one node as text.
+
+    Parameters
+    ----------
+    elements : iterable of Element
+
+    Returns
+    -------
+    str
+    """
+    kinds: dict[tuple, int] = {}
+    rows = []
+    for e in elements:
+        kind = kinds.setdefault((e.label, e.mesh, e.footprint, e.surface), len(kinds))
+        pose = [*e.pose.position, e.pose.angle, e.pose.mirrored]
+        rows.append([kind, e.parent, e.key, pose, e.scale, e.importance, e.example])
+    return json.dumps({"kinds": list(kinds), "elements": rows}, ensure_ascii=False, allow_nan=False)
+
+
+def read_proposals(text: str, node: str) -> tuple[Element, ...]:
+    """The inverse of `write_proposals`.
+
+    Parameters
+    ----------
+    text : str
+        Empty: none.
+    node : str
+        Id of the node.
+
+    Returns
+    -------
+    tuple of Element
+    """
+    if not text:
+        return ()
+    plain = json.loads(text)
+    kinds = [
+        (label, mesh, None if ring is None else tuple((x, y) for x, y in ring), surface)
+        for label, mesh, ring, surface in plain["kinds"]
+    ]
+    found = []
+    for kind, parent, key, (x, y, angle, mirrored), scale, importance, example in plain["elements"]:
+        label, mesh, ring, surface = kinds[kind]
+        pose = Pose((x, y), angle, mirrored)
+        found.append(Element(label, mesh, parent, pose, ring, node, key, surface, scale, importance, example))
+    return tuple(found)

@@ -1,0 +1,184 @@
+"""Showing what the stored proposals of operations let pass, without computing anything again."""
+
+import bpy
+
+from ..errors import InputError
+from ..operations.element import Element
+from ..operations.layout import Layout
+from ..operations.node import Node
+from ..operations.placing import Placing
+from . import names, tree_types
+from .ground import Ground, read_grounds
+from .instances import write_results
+from .planes import Plane
+from .proposals import read_proposals
+from .tree_store import engine_node, engine_tree, operation_nodes, ordered_nodes, placed_by, plane_of, tree_of
+
+
+def ground_for(grounds: list[Ground], plane: Plane) -> Ground:
+    """The ground on a plane; the largest one where none lies there, as for a tree from another file.
+
+    Parameters
+    ----------
+    grounds : list of Ground
+        The largest first.
+    plane : Plane
+
+    Returns
+    -------
+    Ground
+    """
+    size = float((grounds[0].scene.bounds[2:] - grounds[0].scene.bounds[:2]).max())
+    return next((g for g in grounds if g.plane.is_coplanar(plane, size)), grounds[0])
+
+
+def examples_of(tree: bpy.types.NodeTree | None) -> set[str]:
+    """Names of the objects that are examples of operations which are not muted.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree or None
+
+    Returns
+    -------
+    set of str
+    """
+    return {
+        one.item.name
+        for node in operation_nodes(tree)
+        if not node.mute
+        for one in placed_by(node)
+        if one.item is not None
+    }
+
+
+def proposed_by(node: bpy.types.Node) -> tuple[Element, ...]:
+    """What a node has proposed when it was last evaluated.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+
+    Returns
+    -------
+    tuple of Element
+    """
+    return read_proposals(node.get(names.RESULTS, ""), node.name)
+
+
+def stored_layouts(tree: bpy.types.NodeTree, ground: Ground) -> dict[str, Layout]:
+    """What comes in to every node, by the stored proposals.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree
+    ground : Ground
+
+    Returns
+    -------
+    dict of str to Layout
+        By the nodes' names; of the first output of each node, for chains.
+    """
+    incoming: dict[str, Layout] = {}
+    outgoing: dict[str, Layout] = {}
+    every = ordered_nodes(tree)
+    for node in engine_tree(every).nodes:
+        elements = {e.id: e for link in node.inputs for e in outgoing[link.node].elements}
+        incoming[node.id] = Layout(ground.scene, tuple(elements.values()))
+        outgoing[node.id] = decided(node, proposed_by(tree.nodes[node.id]), incoming[node.id])
+    return incoming
+
+
+def decided(node: Node, proposed: tuple[Element, ...], layout: Layout) -> Layout:
+    """The layout after a node, by what it has proposed.
+
+    Parameters
+    ----------
+    node : Node
+    proposed : tuple of Element
+    layout : Layout
+        What comes in.
+
+    Returns
+    -------
+    Layout
+        What came in, where the node is muted or places nothing itself.
+    """
+    if node.muted or not isinstance(node.operation, Placing):
+        return layout
+    there = {p.id for p in layout.scene.polygons}
+    known = tuple(e for e in proposed if e.parent in there)
+    return node.operation.decide(known, layout, node.id)[0]
+
+
+def stored_layout(scene: bpy.types.Scene, node: bpy.types.Node) -> tuple[Ground, Layout]:
+    """What comes in to a node, by the stored proposals.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    node : bpy.types.Node
+        Of the scene's tree.
+
+    Returns
+    -------
+    ground : Ground
+        On the node's plane.
+    layout : Layout
+
+    Raises
+    ------
+    InputError
+        Where the ground cannot be read.
+    """
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    ground = ground_for(read_grounds(scene, depsgraph, examples_of(node.id_data)), plane_of(node))
+    return ground, stored_layouts(node.id_data, ground)[node.name]
+
+
+def show(scene: bpy.types.Scene, node: bpy.types.Node) -> int:
+    """Show what a node's settings and decisions let pass of what it has proposed.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    node : bpy.types.Node
+        Of the scene's tree.
+
+    Returns
+    -------
+    int
+        How many results stand there.
+
+    Raises
+    ------
+    InputError
+        Where the ground cannot be read.
+    """
+    ground, incoming = stored_layout(scene, node)
+    layout = decided(engine_node(node), proposed_by(node), incoming)
+    own = [e for e in layout.elements if e.node == node.name]
+    node[names.COUNT] = write_results(scene, node.name, own, placed_by(node), ground.plane)
+    return node[names.COUNT]
+
+
+def _show_sifted(node: bpy.types.Node) -> None:
+    scene = bpy.context.scene
+    if tree_of(scene) != node.id_data:
+        return
+    node.pop(names.PROBLEM, None)
+    try:
+        show(scene, node)
+    except InputError as error:
+        node[names.PROBLEM] = str(error)
+
+
+def register():
+    """Show results again when a setting that sifts them changes."""
+    tree_types.on_sifted.append(_show_sifted)
+
+
+def unregister():
+    """No longer do so."""
+    tree_types.on_sifted.remove(_show_sifted)

@@ -1,0 +1,180 @@
+"""Replaying the operations of a scene, or of a file."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import bpy
+
+from ..errors import InputError
+from ..operations.element import Element
+from ..progress import Stepper, run, within
+from . import names, register
+from .drawing import draw_picture
+from .evaluating import read_surroundings, write_node
+from .instances import arrange_collections, clear_results, collection_of
+from .lessons import relearned_steps
+from .tree_store import operation_nodes, ordered_nodes, require_operations, write_operation
+
+
+@dataclass(frozen=True)
+class Report:
+    """What a replay has done.
+
+    Attributes
+    ----------
+    operations : int
+        How many were replayed; muted ones do not count.
+    objects : int
+        How many results stand there.
+    """
+
+    operations: int
+    objects: int
+
+
+def replay_steps(
+    context: bpy.types.Context, *, seed: int | None = None, threshold: float | None = None
+) -> Stepper[Report]:
+    """Replay the operations of a scene on what stands there now.
+
+    Operations whose examples have been moved are learned again. Nothing is written before the last step.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    seed : int, optional
+        Of the operations that draw lots; None: the tree's own.
+    threshold : float, optional
+        Least importance of a result; None: each operation's own.
+
+    Returns
+    -------
+    generator of (float, str)
+        Returns the Report.
+
+    Raises
+    ------
+    InputError
+        Where the scene has no operations, or one of them cannot be replayed.
+    """
+    tree = require_operations(context.scene)
+    every = read_surroundings(context)
+    total = len(operation_nodes(tree))
+    done = 0
+    elements: list[Element] = []
+    for around in every:
+        if seed is None:
+            seed = around.seed
+        share = len(around.nodes) / total
+        for i, node in enumerate(around.nodes):
+            start, end = (done + 0.5 * share * k / len(around.nodes) for k in (i, i + 1))
+            operation = yield from within(relearned_steps(around, node), start, end)
+            if threshold is not None and hasattr(operation, "threshold"):
+                operation = replace(operation, threshold=threshold)
+            around.engine = around.engine.with_node(replace(around.engine.node(node.name), operation=operation))
+        steps = around.engine.steps(around.ground.scene, seed)
+        elements += yield from within(steps, done + 0.5 * share, done + share)
+        done += share
+    yield 1.0, "placing objects"
+    if tree.seed != seed:
+        tree.seed = seed
+    rank = [node.name for node in ordered_nodes(tree)]
+    _clear_removed(context.scene, set(rank))
+    count = 0
+    for around in every:
+        for node in around.nodes:
+            write_operation(node, around.engine.node(node.name))
+            count += write_node(around, node, elements)
+    arrange_collections(context.scene, rank)
+    context.view_layer.update()
+    return Report(sum(not node.mute for node in operation_nodes(tree)), count)
+
+
+def _clear_removed(scene: bpy.types.Scene, present: set[str]) -> None:
+    """Delete the results of operations that are gone."""
+    made = {item[names.NODE] for item in scene.objects if names.KEY in item}
+    gone = made - present
+    if gone:
+        clear_results(scene, [name for name in sorted(gone) if collection_of(scene, name)])
+
+
+def replay_file(
+    source: Path | None,
+    *,
+    output: Path | None,
+    render: Path | None,
+    seed: int | None,
+    threshold: float | None,
+    progress: Callable[[float, str], bool],
+) -> Report:
+    """Replay the operations of a file, and write the scene, a picture of it, or both.
+
+    Parameters
+    ----------
+    source : Path or None
+        A .blend; None: the file that is open.
+    output, render : Path or None
+        The .blend and the .png to write.
+    seed : int or None
+        Of the operations that draw lots; None: the scenes' own.
+    threshold : float or None
+        Least importance of a result; None: each operation's own.
+    progress : callable (fraction, text) -> bool
+        Returning False cancels.
+
+    Returns
+    -------
+    Report
+        Of the scene that the file opens with.
+
+    Raises
+    ------
+    InputError
+        Where the file is missing, cannot be read, or has no operations, and where one cannot be replayed.
+    Cancelled
+        When `progress` returned False, which it is not asked any more once writing has begun.
+    OSError
+        When a file cannot be written.
+    """
+    if not hasattr(bpy.types.Scene, "geoanalogy"):
+        register()
+    if source is not None:
+        open_file(source)
+    scene = bpy.context.scene
+    report = run(replay_steps(bpy.context, seed=seed, threshold=threshold), progress)
+    if render is not None:
+        draw_picture(scene, render)
+    if output is not None:
+        try:
+            bpy.ops.wm.save_as_mainfile(filepath=str(output), copy=True, compress=True, check_existing=False)
+        except RuntimeError as error:
+            raise OSError(f"cannot write {output}: {str(error).strip()}") from None
+    return report
+
+
+def open_file(source: Path) -> None:
+    """Open a .blend.
+
+    Parameters
+    ----------
+    source : Path
+
+    Raises
+    ------
+    InputError
+        Where it is missing, empty or no .blend, or this Blender cannot read it.
+    """
+    if not source.is_file():
+        raise InputError(f"{source} is not there; check the path")
+    if not source.stat().st_size:
+        raise InputError(f"{source} is empty; save it again")
+    try:
+        bpy.ops.wm.open_mainfile(filepath=str(source), load_ui=False)
+    except RuntimeError as error:
+        raise InputError(f"{source} cannot be opened ({_first_line(error)}); save it again") from None
+
+
+def _first_line(error: Exception) -> str:
+    lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+    return lines[0].removeprefix("Error: ").rstrip(".") if lines else type(error).__name__

@@ -1,0 +1,427 @@
+"""The operations tree of a scene: between Blender's node tree and the engine's `OperationsTree`.
+
+A node carries its operation (`names.OPERATION`: schema, type, settings), the objects it places (`names.EXAMPLES`, with
+how each rests on its pose), the frame of its plane, and what it has proposed. Links are the tree; a node's name is its
+id, and its mute switch is the engine's.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from ..operations.evaluation import Evaluations
+from ..operations.node import Link, Node
+from ..operations.tree import SCHEMA, VERSION, OperationsTree
+from . import names
+from .plain import from_property, to_property
+from .planes import Plane
+
+Array = NDArray[np.float64]
+
+#: Distance between the nodes of a chain in the node editor.
+NODE_GAP = 260.0
+
+
+@dataclass(frozen=True)
+class Placed:
+    """An object that an operation places.
+
+    Attributes
+    ----------
+    mesh : str
+        Its name in the operation.
+    item : bpy.types.Object or None
+        None where it is no longer in the file.
+    rest : ndarray of shape (4, 4)
+        How it rests on the frame of a pose.
+    """
+
+    mesh: str
+    item: bpy.types.Object | None
+    rest: Array
+
+
+def tree_of(scene: bpy.types.Scene) -> bpy.types.NodeTree | None:
+    """The operations tree of a scene.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+
+    Returns
+    -------
+    bpy.types.NodeTree or None
+        The one chosen; else the file's only one, as after appending it.
+    """
+    if scene.geoanalogy.tree is not None:
+        return scene.geoanalogy.tree
+    every = [tree for tree in bpy.data.node_groups if tree.bl_idname == names.TREE]
+    used = {other.geoanalogy.tree for other in bpy.data.scenes}
+    free = [tree for tree in every if tree not in used]
+    return free[0] if len(free) == 1 else None
+
+
+def ensure_tree(scene: bpy.types.Scene) -> bpy.types.NodeTree:
+    """The operations tree of a scene, made where there is none.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+
+    Returns
+    -------
+    bpy.types.NodeTree
+        It has a fake user, or Blender would not write it.
+    """
+    tree = tree_of(scene)
+    if tree is None:
+        tree = bpy.data.node_groups.new(f"{scene.name} operations", names.TREE)
+    tree.use_fake_user = True
+    scene.geoanalogy.tree = tree
+    return tree
+
+
+def operation_nodes(tree: bpy.types.NodeTree | None) -> list[bpy.types.Node]:
+    """The nodes that carry an operation.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree or None
+
+    Returns
+    -------
+    list of bpy.types.Node
+        In the order in which they were added.
+    """
+    return [] if tree is None else [node for node in tree.nodes if hasattr(node.get(names.OPERATION), "items")]
+
+
+def sources_of(node: bpy.types.Node) -> list[tuple[bpy.types.Node, int]]:
+    """Where a node's input comes from: nodes and the numbers of their outputs.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+
+    Returns
+    -------
+    list of (bpy.types.Node, int)
+        Nodes that carry no operation, such as reroutes, are looked through.
+    """
+    found = []
+    for link in (link for socket in node.inputs for link in socket.links):
+        if hasattr(link.from_node.get(names.OPERATION), "items"):
+            output = next(i for i, socket in enumerate(link.from_node.outputs) if socket == link.from_socket)
+            found.append((link.from_node, output))
+        else:
+            found += sources_of(link.from_node)
+    return found
+
+
+def ordered_nodes(tree: bpy.types.NodeTree | None) -> list[bpy.types.Node]:
+    """The nodes that carry an operation, inputs first.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree or None
+
+    Returns
+    -------
+    list of bpy.types.Node
+        Of those that could come next, the one added first; nodes in a circle come last.
+    """
+    waiting = operation_nodes(tree)
+    order: list[bpy.types.Node] = []
+    done: set[str] = set()
+    while waiting:
+        ready = next((n for n in waiting if all(s.name in done for s, _ in sources_of(n))), waiting[0])
+        waiting.remove(ready)
+        order.append(ready)
+        done.add(ready.name)
+    return order
+
+
+def plane_of(node: bpy.types.Node) -> Plane:
+    """The plane that a node works on.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+
+    Returns
+    -------
+    Plane
+    """
+    stored = node.get(names.FRAME)
+    return Plane(np.eye(4) if stored is None else np.array(stored.to_list()).reshape(4, 4))
+
+
+def engine_node(node: bpy.types.Node) -> Node:
+    """A node as the engine's.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+
+    Returns
+    -------
+    Node
+
+    Raises
+    ------
+    InputError
+        For what another or a newer version has written, and for anything damaged.
+    """
+    return engine_tree([node], linked=False).nodes[0]
+
+
+def engine_tree(
+    nodes: Sequence[bpy.types.Node], evaluations: Evaluations | None = None, linked: bool = True
+) -> OperationsTree:
+    """Nodes as the engine's tree.
+
+    Parameters
+    ----------
+    nodes : sequence of bpy.types.Node
+    evaluations : Evaluations, optional
+    linked : bool
+        Whether links count; they must come from nodes among these.
+
+    Returns
+    -------
+    OperationsTree
+
+    Raises
+    ------
+    InputError
+        For what another or a newer version has written, for circles, and for anything damaged.
+    """
+    made = []
+    for node in nodes:
+        plain = from_property(node[names.OPERATION])
+        sources = [{"node": source.name, "output": output} for source, output in sources_of(node)] if linked else []
+        entry = {"id": node.name, "type": plain.get("type"), "settings": plain.get("settings", {})}
+        entry |= {"inputs": sources, "muted": node.mute}
+        holder = {"schema": plain.get("schema"), "nodes": [{**entry, "inputs": []}]}
+        (read,) = OperationsTree.from_dict(holder, f"the operation {node.name!r}").nodes
+        made.append(Node(read.id, read.operation, tuple(Link(s["node"], s["output"]) for s in sources), node.mute))
+    return OperationsTree(made, evaluations)
+
+
+def write_operation(node: bpy.types.Node, operation: Node) -> None:
+    """Write an engine's node into one of Blender's, without its links.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+    operation : Node
+    """
+    plain = operation.to_dict()
+    settings = plain["settings"]
+    if hasattr(operation.operation, "threshold"):
+        settings.setdefault("threshold", operation.operation.threshold)
+    entry = {"schema": f"{SCHEMA}/{VERSION}", "type": plain["type"], "settings": settings}
+    node[names.OPERATION] = {key: to_property(value) for key, value in entry.items()}
+    node.mute = operation.muted
+
+
+def add_node(tree: bpy.types.NodeTree, operation: Node, placed: Sequence[Placed], plane: Plane) -> bpy.types.Node:
+    """Add an engine's node to a scene's tree, linked and active.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree
+    operation : Node
+    placed : sequence of Placed
+        The objects that it places.
+    plane : Plane
+
+    Returns
+    -------
+    bpy.types.Node
+    """
+    node = tree.nodes.new(names.OPERATION_NODE)
+    node.name = operation.id
+    write_operation(node, operation)
+    write_placed(node, placed, plane)
+    for _ in range(len(node.outputs), operation.operation.outputs):
+        node.outputs.new(names.LAYOUT_SOCKET, "Layout")
+    sources = [tree.nodes[link.node] for link in operation.inputs]
+    for link, source in zip(operation.inputs, sources, strict=True):
+        tree.links.new(source.outputs[link.output], node.inputs[0])
+    rows = [other.location[1] for other in tree.nodes if other != node]
+    node.location = (
+        (max(source.location[0] for source in sources) + NODE_GAP, sources[0].location[1])
+        if sources
+        else (0.0, min(rows) - NODE_GAP if rows else 0.0)
+    )
+    tree.nodes.active = node
+    return node
+
+
+def write_placed(node: bpy.types.Node, placed: Sequence[Placed], plane: Plane) -> None:
+    """Write which objects a node places, and on which plane.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+    placed : sequence of Placed
+    plane : Plane
+    """
+    node[names.EXAMPLES] = {
+        str(i): {"mesh": one.mesh, "object": one.item, "rest": one.rest.ravel().tolist()}
+        for i, one in enumerate(placed)
+    }
+    node[names.FRAME] = plane.frame.ravel().tolist()
+
+
+def placed_by(node: bpy.types.Node) -> list[Placed]:
+    """The objects that a node places.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+
+    Returns
+    -------
+    list of Placed
+    """
+    found = []
+    for entry in (node.get(names.EXAMPLES) or {}).values():
+        item = entry.get("object") or bpy.data.objects.get(entry["mesh"])
+        found.append(Placed(entry["mesh"], item, np.array(entry["rest"].to_list()).reshape(4, 4)))
+    return found
+
+
+def free_id(tree: bpy.types.NodeTree | None, wanted: str) -> str:
+    """A name that no node of a tree has.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree or None
+    wanted : str
+
+    Returns
+    -------
+    str
+        With a number behind it where need be.
+    """
+    taken = set() if tree is None else {node.name for node in tree.nodes}
+    names_ = [wanted, *(f"{wanted} {i}" for i in range(2, len(taken) + 3))]
+    return next(name for name in names_ if name not in taken)
+
+
+def remove_node(tree: bpy.types.NodeTree, node: bpy.types.Node) -> None:
+    """Remove a node; what it fed is fed by what fed it.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree
+    node : bpy.types.Node
+    """
+    sources = [link.from_socket for socket in node.inputs for link in socket.links]
+    targets = [link.to_socket for socket in node.outputs for link in socket.links]
+    tree.nodes.remove(node)
+    for target in targets:
+        for source in sources:
+            tree.links.new(source, target)
+
+
+def swap_with_source(tree: bpy.types.NodeTree, node: bpy.types.Node) -> None:
+    """Move a node before the one that it gets its input from.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree
+    node : bpy.types.Node
+
+    Raises
+    ------
+    InputError
+        Where it has no source, or several, or shares it: then there is no order to change.
+    """
+    sources = sources_of(node)
+    if len(sources) != 1:
+        raise InputError(f"the operation {node.name!r} does not follow on a single one; relink it in the node editor")
+    source = sources[0][0]
+    before = [link.from_socket for socket in source.inputs for link in socket.links]
+    after = [link.to_socket for socket in node.outputs for link in socket.links]
+    others = [link.to_node for socket in source.outputs for link in socket.links if link.to_node != node]
+    if others:
+        raise InputError(f"the tree branches after {source.name!r}; relink it in the node editor")
+    for link in [link for link in tree.links if {link.from_node, link.to_node} & {node, source}]:
+        tree.links.remove(link)
+    for socket in before:
+        tree.links.new(socket, node.inputs[0])
+    tree.links.new(node.outputs[0], source.inputs[0])
+    for socket in after:
+        tree.links.new(source.outputs[0], socket)
+    node.location, source.location = tuple(source.location), tuple(node.location)
+
+
+def follower_of(node: bpy.types.Node) -> bpy.types.Node:
+    """The operation that builds on a node.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+
+    Returns
+    -------
+    bpy.types.Node
+
+    Raises
+    ------
+    InputError
+        Where there is none, or there are several.
+    """
+    followers = {link.to_node.name for socket in node.outputs for link in socket.links}
+    if len(followers) != 1:
+        raise InputError(f"not one operation follows on {node.name!r}, but {len(followers)}; there is nothing to swap")
+    return node.id_data.nodes[followers.pop()]
+
+
+def leaf(nodes: Sequence[bpy.types.Node], active: bpy.types.Node | None) -> bpy.types.Node | None:
+    """The node that a recorded operation builds on: the active one where nothing follows it, else the last leaf.
+
+    Parameters
+    ----------
+    nodes : sequence of bpy.types.Node
+    active : bpy.types.Node or None
+
+    Returns
+    -------
+    bpy.types.Node or None
+        None before the first operation.
+    """
+    followed = {source.name for node in nodes for source, _ in sources_of(node)}
+    leaves = [node for node in nodes if node.name not in followed]
+    if active is not None and active in leaves:
+        return active
+    return leaves[-1] if leaves else None
+
+
+def require_operations(scene: bpy.types.Scene) -> bpy.types.NodeTree:
+    """The operations tree of a scene that has operations.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+
+    Returns
+    -------
+    bpy.types.NodeTree
+
+    Raises
+    ------
+    InputError
+        Where there are none.
+    """
+    tree = tree_of(scene)
+    if tree is None or not operation_nodes(tree):
+        raise InputError(f"the scene {scene.name!r} has no operations; propagate an object first")
+    return tree

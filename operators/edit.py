@@ -1,0 +1,131 @@
+"""What all operators share: errors are reported, and long work is done in slices that Esc can stop between."""
+
+from collections.abc import Generator
+
+import bpy
+
+from ..geoanalogy.blender.jobs import Job
+from ..geoanalogy.blender.tree_store import operation_nodes, tree_of
+from ..geoanalogy.errors import InputError
+from ..geoanalogy.progress import run
+
+
+class Edit:
+    """An operator that changes the scene at once."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    def edit(self, context: bpy.types.Context) -> str:
+        """Do it, and return what to tell the user; an InputError leaves the scene as it was."""
+        raise NotImplementedError
+
+    def execute(self, context):
+        try:
+            self.report({"INFO"}, self.edit(context))
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+class LongEdit:
+    """An operator that works for a while: modal in a window, at once in the background and in scripts."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    def steps(self, context: bpy.types.Context) -> Generator[tuple[float, str], None, str]:
+        """The work as a stepper, which returns what to tell the user and writes nothing before its last step."""
+        raise NotImplementedError
+
+    def execute(self, context):
+        try:
+            self.report({"INFO"}, run(self.steps(context)))
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+    def invoke(self, context, event):
+        if bpy.app.background or context.window is None:
+            return self.execute(context)
+        self._job = Job(self.steps(context))
+        self._timer = context.window_manager.event_timer_add(0.01, window=context.window)
+        context.window_manager.progress_begin(0.0, 1.0)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC" and event.value == "PRESS":
+            self._job.cancel()
+            self._end(context)
+            self.report({"INFO"}, "Cancelled; nothing has changed")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}
+        try:
+            self._job.advance()
+        except InputError as error:
+            self._end(context)
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        except Exception:
+            self._end(context)
+            raise
+        if self._job.finished:
+            self._end(context)
+            self.report({"INFO"}, self._job.result)
+            return {"FINISHED"}
+        context.window_manager.progress_update(self._job.fraction)
+        context.workspace.status_text_set(f"{self._job.text} — {round(100 * self._job.fraction)} %, Esc cancels")
+        return {"RUNNING_MODAL"}
+
+    def _end(self, context):
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+        context.workspace.status_text_set(None)
+        for area in context.screen.areas if context.screen else ():
+            area.tag_redraw()
+
+
+def needs_object_mode(cls: type, context: bpy.types.Context) -> bool:
+    """Whether the scene can be edited; where not, the operator says why."""
+    if context.mode != "OBJECT":
+        cls.poll_message_set("Leave to Object Mode first")
+        return False
+    return True
+
+
+def needs_active_object(cls: type, context: bpy.types.Context) -> bool:
+    """Whether an object is active; where not, the operator says so."""
+    if not needs_object_mode(cls, context):
+        return False
+    if context.active_object is None:
+        cls.poll_message_set("Click an object first")
+        return False
+    return True
+
+
+def needs_operations(cls: type, context: bpy.types.Context) -> bool:
+    """Whether the scene has operations; where not, the operator says so."""
+    if not needs_object_mode(cls, context):
+        return False
+    if not operation_nodes(tree_of(context.scene)):
+        cls.poll_message_set("There are no operations yet: propagate an object first")
+        return False
+    return True
+
+
+def active_operation(context: bpy.types.Context) -> bpy.types.Node:
+    """The operation that is active in the list."""
+    tree = tree_of(context.scene)
+    nodes = operation_nodes(tree)
+    active = tree.nodes.active if tree else None
+    if active is None or active not in nodes:
+        raise InputError("no operation is active; click one in the list of step 5")
+    return active
+
+
+def selected_active(context: bpy.types.Context) -> bpy.types.Object | None:
+    """The active object, where it is selected too."""
+    active = context.active_object
+    return active if active is not None and active.select_get() else None

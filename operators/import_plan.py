@@ -1,0 +1,44 @@
+"""Import a plan from a file."""
+
+import bpy
+from bpy.props import FloatProperty, StringProperty
+from bpy_extras.io_utils import ImportHelper
+
+from ..geoanalogy.blender.plan_making import add_plan
+from ..geoanalogy.formats.files import read_scene
+from .edit import Edit, needs_object_mode
+
+
+class GEOANALOGY_OT_import_plan(Edit, ImportHelper, bpy.types.Operator):
+    """Import labelled outlines from a GeoJSON, SVG or DXF file"""
+
+    bl_idname = "geoanalogy.import_plan"
+    bl_label = "Import Plan"
+
+    filter_glob: StringProperty(default="*.geojson;*.json;*.svg;*.dxf", options={"HIDDEN"})
+    label: StringProperty(
+        name="Label From",
+        description="Where the file keeps the labels: a property (GeoJSON), an attribute (SVG), layer or block (DXF); "
+        "empty: the usual place",
+    )
+    scale: FloatProperty(name="Scale", description="Scene units per unit of the file", min=1e-6, default=1.0)
+
+    @classmethod
+    def poll(cls, context):
+        return needs_object_mode(cls, context)
+
+    def edit(self, context):
+        """Read the file, and add its polygons to the plan."""
+        path = bpy.path.abspath(self.filepath)
+        scene = read_scene(path, label=self.label.strip() or None, scale=self.scale)
+        return f"{len(add_plan(context, scene, bpy.path.display_name_from_filepath(path)))} polygons"
+
+
+def register():
+    """Register the operator."""
+    bpy.utils.register_class(GEOANALOGY_OT_import_plan)
+
+
+def unregister():
+    """Unregister it."""
+    bpy.utils.unregister_class(GEOANALOGY_OT_import_plan)

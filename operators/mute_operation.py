@@ -1,0 +1,36 @@
+"""Mute an operation, or let it speak again."""
+
+import bpy
+
+from ..geoanalogy.blender.evaluating import mark_stale
+from ..geoanalogy.blender.refresh import show
+from .edit import Edit, active_operation, needs_operations
+
+
+class GEOANALOGY_OT_mute_operation(Edit, bpy.types.Operator):
+    """Leave the active operation out, or take it in again; replay to see what follows from it"""
+
+    bl_idname = "geoanalogy.mute_operation"
+    bl_label = "Mute Operation"
+
+    @classmethod
+    def poll(cls, context):
+        return needs_operations(cls, context)
+
+    def edit(self, context):
+        """Switch it over."""
+        node = active_operation(context)
+        node.mute = not node.mute
+        show(context.scene, node)
+        mark_stale(node.id_data, node)
+        return f"{node.name} {'muted' if node.mute else 'no longer muted'}"
+
+
+def register():
+    """Register the operator."""
+    bpy.utils.register_class(GEOANALOGY_OT_mute_operation)
+
+
+def unregister():
+    """Unregister it."""
+    bpy.utils.unregister_class(GEOANALOGY_OT_mute_operation)

@@ -1,0 +1,38 @@
+"""Remove the active operation."""
+
+import bpy
+
+from ..geoanalogy.blender.evaluating import mark_stale
+from ..geoanalogy.blender.instances import clear_results
+from ..geoanalogy.blender.tree_store import remove_node
+from .edit import Edit, active_operation, needs_operations
+
+
+class GEOANALOGY_OT_remove_operation(Edit, bpy.types.Operator):
+    """Remove the active operation and its results; the example stays"""
+
+    bl_idname = "geoanalogy.remove_operation"
+    bl_label = "Remove Operation"
+
+    @classmethod
+    def poll(cls, context):
+        return needs_operations(cls, context)
+
+    def edit(self, context):
+        """Remove it; what built on it builds on what it was built on."""
+        node = active_operation(context)
+        name = node.name
+        mark_stale(node.id_data, node)
+        clear_results(context.scene, [name])
+        remove_node(node.id_data, node)
+        return f"{name} removed; replay to bring what followed up to date"
+
+
+def register():
+    """Register the operator."""
+    bpy.utils.register_class(GEOANALOGY_OT_remove_operation)
+
+
+def unregister():
+    """Unregister it."""
+    bpy.utils.unregister_class(GEOANALOGY_OT_remove_operation)

@@ -1,0 +1,61 @@
+"""Take a group of objects to polygons of other shapes."""
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty
+
+from ..geoanalogy.blender import names
+from ..geoanalogy.blender.recording import transfer_steps
+from ..geoanalogy.poses.local_mapping import TransferOptions
+from .edit import LongEdit, needs_object_mode
+
+
+class GEOANALOGY_OT_transfer(LongEdit, bpy.types.Operator):
+    """Take the selected objects of one polygon to every polygon like it, following the shape of its boundary"""
+
+    bl_idname = "geoanalogy.transfer"
+    bl_label = "Transfer Group"
+
+    system: EnumProperty(
+        name="Coordinates",
+        items=[
+            ("boundary", "Boundary", "Distance from the boundary and length along it"),
+            ("corner", "Corner", "Distance and direction from one corner"),
+        ],
+    )
+    distance: EnumProperty(
+        name="Distances",
+        items=[
+            ("inscribed", "In Proportion", "In proportion to the largest circle inside the polygon"),
+            ("absolute", "Fixed", "As they are"),
+            ("depth", "Fill", "In proportion to the way to the middle: reaches every part of the polygon"),
+        ],
+    )
+    corners: BoolProperty(
+        name="Corner to Corner",
+        description="Lengths run from corner to corner where there are equally many",
+        default=True,
+    )
+    everything: BoolProperty(
+        name="Everything", description="Place objects too for which a polygon has no room; they stand in its middle"
+    )
+
+    @classmethod
+    def poll(cls, context):
+        return needs_object_mode(cls, context)
+
+    def steps(self, context):
+        """Learn, transfer and record."""
+        items = sorted(context.selected_objects, key=lambda item: item.name)
+        options = TransferOptions(system=self.system, distance=self.distance, corners=self.corners)
+        node = yield from transfer_steps(context, items, options, everything=self.everything)
+        return f"{node[names.COUNT]} objects transferred"
+
+
+def register():
+    """Register the operator."""
+    bpy.utils.register_class(GEOANALOGY_OT_transfer)
+
+
+def unregister():
+    """Unregister it."""
+    bpy.utils.unregister_class(GEOANALOGY_OT_transfer)
