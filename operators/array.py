@@ -12,7 +12,7 @@ from .pose_settings import PoseSettings
 
 
 class GEOANALOGY_OT_array(PoseSettings, LongEdit, bpy.types.Operator):
-    """Put copies of the active object along the boundary it stands at, up to the selected empty, and do so wherever the surroundings are alike"""
+    """Put copies of the active object along the boundary it stands at, up to the selected empty; so in like places"""
 
     bl_idname = "geoanalogy.array"
     bl_label = "Array"

@@ -1,7 +1,7 @@
 """Recording operations: what the operators do, and what a script calls.
 
-Each `…_steps` function is a stepper that returns the node it has written; `geoanalogy.progress.run` drives it to its end,
-and so do the functions `record_…`. Where anything fails, the scene stays as it was.
+Each function is a stepper that returns the node it has written; `geoanalogy.progress.run` drives it to its end. Where
+anything fails, the scene stays as it was.
 """
 
 from collections.abc import Callable, Mapping, Sequence
