@@ -62,6 +62,38 @@ CORNER_WINDOW = 0.022
 #: Turn, in radians, from which such a stretch counts as a corner (14 degrees); a circle turns 8 over it.
 CORNER_TURN = math.radians(14.0)
 
+# Noise of boundaries (geoanalogy.geometry.persistence). A ring is noisy where it has many turns, most of them to and
+# fro, by angles of all sizes; real rooms, plots and buildings fail the third, circles the second.
+
+#: Turns that a ring must have to be noisy: rooms and their furniture mostly have fewer, and pay nothing.
+LEAST_NOISY_TURNS = 24
+
+#: Smallest turn, in radians, that counts (2 degrees): edges that go straight on are no noise.
+NOISY_TURN = math.radians(2.0)
+
+#: Share of neighbouring turns that are of opposite sense: independent displacements make 0.70, curves none.
+NOISY_ALTERNATION = 0.5
+
+#: Range, in radians, that the sizes of the turns fill (12.5 degrees). A comb or a stair fills five, its window.
+NOISY_SPREAD = math.radians(12.5)
+
+#: Largest noise, as a share of the square root of the area: beyond it nothing can be told.
+LARGEST_NOISE = 0.06
+
+#: What a straight piece and an arc cost, in logarithms of the number of points. A piece has two numbers, or three, and
+#: an end; the Bayesian information criterion would say 3 and 4. Outlines are straight more often than not.
+LINE_PRICE = 4.0
+ARC_PRICE = 9.0
+
+#: Turn, in radians, from which two pieces make a corner whatever one arc through both would say (70 degrees).
+SURE_TURN = math.radians(70.0)
+
+#: By how many squared deviations one arc must be worse than two pieces for a smaller turn to be a corner.
+CORNER_EVIDENCE = 5.0
+
+#: Vertices that each piece must explain: with fewer the shape is not noisy but rich.
+VERTICES_PER_PIECE = 5
+
 # Files (geoanalogy.formats)
 
 #: Largest turn, in radians, between two edges of a flattened curve (5.6 degrees): a circle becomes 64 edges, each
@@ -108,3 +140,20 @@ SAME_POLYGON = 1e-4
 #: Distance, in sizes of the parent, within which a result is taken for the one that a decision by hand was made
 #: about: a replay after a wall was moved shifts results a little; of several, the nearest is meant.
 SAME_RESULT = 0.05
+
+#: Largest distance between neighbouring samples of a line, in extents of the drawing (appendix A: about one percent).
+SAMPLE_SPACING = 0.01
+
+#: Largest turn between neighbouring samples, in radians (20 degrees): a quarter circle gets five.
+SAMPLE_TURN = math.radians(20.0)
+
+#: Samples of a drawing at about which their spacing grows: twice as many take four times as long to compare.
+MOST_SAMPLES = 2_500
+
+#: Share of an example's area that its parent must hold where no polygon holds more of any example: a balcony drawn
+#: across the edge of the only facade.
+JUTTING_SHARE = 0.5
+
+#: Directions in which the outermost points stand for all in the smallest circle round a drawing: half a degree
+#: apart, which is wrong by 1 - cos(0.25 degrees) = 1e-5 of it.
+HULL_DIRECTIONS = 720

@@ -7,14 +7,45 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
-from ..tolerances import CONTOUR_POINTS, CONTOUR_SMOOTHING, CORNER_TURN, CORNER_WINDOW, LEAST_CONTOUR_POINTS
+from ..tolerances import (
+    CONTOUR_POINTS,
+    CONTOUR_SMOOTHING,
+    CORNER_TURN,
+    CORNER_WINDOW,
+    HULL_DIRECTIONS,
+    LEAST_CONTOUR_POINTS,
+)
 
 Complex = NDArray[np.complex128]
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
+
+
+def surrounding_circle(z: Complex) -> tuple[complex, float]:
+    """Centre and diameter of the smallest circle round points.
+
+    Parameters
+    ----------
+    z : (n,) complex
+
+    Notes
+    -----
+    The diagonal of the bounding box, which the thesis takes as a unit, changes when a drawing is turned. Of many points
+    only the outermost in HULL_DIRECTIONS directions are taken: the exact circle takes quadratic time in the vertices of
+    the convex hull, and the difference is a hundred-thousandth.
+    """
+    if len(z) > HULL_DIRECTIONS:
+        ways = np.exp(2j * np.pi * np.arange(HULL_DIRECTIONS) / HULL_DIRECTIONS)
+        z = z[np.unique([int((z.real * w.real + z.imag * w.imag).argmax()) for w in ways])]
+    points = shapely.multipoints(np.stack([z.real, z.imag], 1))
+    circle = shapely.minimum_bounding_circle(points)
+    middle = shapely.get_coordinates(circle).reshape(-1, 2)
+    low, high = middle.min(0), middle.max(0)
+    return complex(*((low + high) / 2.0)), 2.0 * float(shapely.minimum_bounding_radius(points))
 
 
 def even(line: Complex, closed: bool, count: int) -> Complex:
@@ -100,6 +131,8 @@ class Contours:
     ----------
     points : (n,) complex
         Points, line after line.
+    drawn : (n,) complex
+        The same points before smoothing: where the line was drawn.
     heading : (n,) float
         Direction of the line at each point, radians, unwrapped along the line.
     line : (n,) int
@@ -113,6 +146,7 @@ class Contours:
     """
 
     points: Complex
+    drawn: Complex
     heading: Floats
     line: Indices
     first: Indices
@@ -141,18 +175,20 @@ class Contours:
         """
         lengths = np.array([_length(z, c) for z, c in zip(lines, closed, strict=True)])
         grain = lengths.sum() / CONTOUR_POINTS
-        parts, turns, spacings = [], [], []
+        parts, drawn, turns, spacings = [], [], [], []
         for z, is_closed, length in zip(lines, closed, lengths, strict=True):
             count = max(LEAST_CONTOUR_POINTS, int(np.ceil(length / grain)))
             spacing = length / (count if is_closed else count - 1)
             width = max(CONTOUR_SMOOTHING * min(length, size), smoothing) / spacing
-            z = smooth(even(z, is_closed, count), is_closed, width)
+            drawn.append(even(z, is_closed, count))
+            z = smooth(drawn[-1], is_closed, width)
             parts.append(z)
             turns.append(headings(z, is_closed))
             spacings.append(spacing)
         first = np.concatenate([[0], np.cumsum([len(z) for z in parts])])
         return cls(
             np.concatenate(parts),
+            np.concatenate(drawn),
             np.concatenate(turns),
             np.repeat(np.arange(len(parts)), np.diff(first)),
             first,

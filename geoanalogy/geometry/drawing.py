@@ -4,12 +4,11 @@ from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
-import shapely
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from ..tolerances import LARGEST_COORDINATE, MOST_LINES, ZERO_LENGTH
-from .contours import Complex, Contours
+from .contours import Complex, Contours, surrounding_circle
 
 
 class Drawing:
@@ -50,11 +49,7 @@ class Drawing:
         kept = [z for z in (_line(points, number) for number, points in enumerate(lines, 1)) if len(z) > 1]
         if not kept:
             raise InputError("The drawing has no lines: draw at least one stroke with some length.")
-        every = np.concatenate(kept)
-        hull = shapely.convex_hull(shapely.multipoints(np.stack([every.real, every.imag], 1)))
-        circle = shapely.minimum_bounding_circle(hull)
-        self.size = 2.0 * float(shapely.minimum_bounding_radius(hull))
-        self.centre = complex(circle.centroid.x, circle.centroid.y)
+        self.centre, self.size = surrounding_circle(np.concatenate(kept))
         self.smoothing = float(smoothing)
         self.lines, self.closed = [], []
         for z in kept:

@@ -24,6 +24,8 @@ from .query import Run
 SAMPLES = 72
 #: Fewest samples of a stretch that is aligned.
 LEAST_SAMPLES = 10
+#: Stretches of the query, longest first, that are aligned; the descriptors see the others.
+MOST_SOURCES = 4
 #: Lengths of a target stretch in lengths of the query stretch that are tried: the target may be a part of the query's
 #: counterpart (below 1) or contain it (above).
 SHARES = (0.5, 0.6, 0.71, 0.84, 1.0, 1.19, 1.41, 2.0)
@@ -90,6 +92,7 @@ def align(contours: Contours, sources: list[Run], targets: list[Run], mirrored: 
     """
     longest = float(lengths(contours, sources[:1])[0])
     out: list[Alignment] = []
+    sources = sources[:MOST_SOURCES]
     for run, length in zip(sources, lengths(contours, sources), strict=True):
         count = round(SAMPLES * length / longest)
         if count < LEAST_SAMPLES:
@@ -142,11 +145,12 @@ def _walk(source: Course, blocks: list[_Block], share: float) -> list[Alignment]
     barrier = np.ones(width, bool)
     angle, room = np.zeros(width, np.float32), np.full(width, 10**6, np.int32)
     corner = np.zeros(width, np.float32)
-    for b in blocks:
-        here = slice(b.start, b.start + len(b.course.points))
-        barrier[here], angle[here], corner[here] = False, b.course.heading - b.course.heading[0], b.course.corners
-        if b.period:
-            room[here] = b.period
+    for block in blocks:
+        course = block.course
+        here = slice(block.start, block.start + len(course.points))
+        barrier[here], angle[here], corner[here] = False, course.heading - course.heading[0], course.corners
+        if block.period:
+            room[here] = block.period
     open_ = ~barrier
     turn = {b: angle[b:] - angle[:-b] for _, b in STEPS}
     passed = {b: corner[b:] - corner[:-b] for _, b in STEPS}

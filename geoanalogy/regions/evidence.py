@@ -21,10 +21,10 @@ from .transformation import gradient
 NEAR, ASKEW = 0.03, 0.4
 #: Gradient per spacing of the nodes at which the transformation parameter similarity is 1/2.
 STRAIN = 0.45
-#: Mean squared turn (square radians), squared logarithm of the stretch, and distance at which the agreement is 1/2.
-TURN, STRETCH, DISTANCE = 0.012, 0.12, 0.006
+#: Mean squared difference of turn (square radians), and distance, at which the agreement is 1/2.
+TURN, DISTANCE = 0.012, 0.006
 #: Exponents of the factors: how much each says about a match being the right one.
-EXPONENTS = {"coverage": 0.4, "smooth": 0.4, "course": 0.65, "stretch": 0.4, "near": 0.2, "own": 0.3, "whole": 0.6}
+EXPONENTS = {"coverage": 0.45, "smooth": 0.6, "course": 0.8, "near": 0.25, "own": 0.2, "whole": 0.7}
 #: Factor of mirrored targets: between two that are alike in all else, the one that is not mirrored comes first.
 MIRRORED = 0.85
 #: Least value of a factor, so that one alone never says everything.
@@ -41,8 +41,8 @@ class Evidence:
         Share of the length of the query's lines that has a counterpart.
     smooth : float
         Transformation parameter similarity: harmonic mean over neighbouring nodes (eq. 3.11).
-    course, stretch : float
-        Agreement of turns, and evenness of stretches, between consecutive counterparts.
+    course : float
+        Agreement of the turns of the query's lines, carried along by the function, with those of their counterparts.
     near : float
         Nearness of the counterparts to the images.
     own : float
@@ -56,7 +56,6 @@ class Evidence:
     coverage: float
     smooth: float
     course: float
-    stretch: float
     near: float
     own: float
     whole: float
@@ -104,15 +103,13 @@ def evidence(fitter: Fitter, query: Query, fit: Fit, joint_tolerance: float = 0.
     found = support(fit)
     at = fit.counterpart[fit.counterpart >= 0]
     if not len(at):
-        return Evidence(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, fit.function.mirrored)
-    turn, stretch = _course(fitter, fit)
+        return Evidence(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, fit.function.mirrored)
     distance = float((fit.distance[fit.counterpart >= 0] ** 2).mean())
     own, whole = _explained(fitter, query, fit, at)
     return Evidence(
         float(found.mean()),
         _smooth(fitter, fit, found, joint_tolerance),
-        1.0 / (1.0 + turn / TURN),
-        1.0 / (1.0 + stretch / STRETCH),
+        1.0 / (1.0 + _course(fitter, fit) / TURN),
         1.0 / (1.0 + distance / DISTANCE**2),
         own,
         whole,
@@ -135,21 +132,20 @@ def _smooth(fitter: Fitter, fit: Fit, found: Floats, joint_tolerance: float) -> 
     return float(1.0 / (1.0 + (weight * square).sum() / weight.sum()))
 
 
-def _course(fitter: Fitter, fit: Fit) -> tuple[float, float]:
-    """Mean squared differences of turn and of log length between consecutive counterparts and the query's samples."""
+def _course(fitter: Fitter, fit: Fit) -> float:
+    """Mean squared difference between the turns of the images of the query's lines and of the lines there."""
     s, t = fitter.samples, fitter.target
     before = np.roll(fit.counterpart, 1)
     both = (s.step > 0.0) & (fit.counterpart >= 0) & (before >= 0)
     both[both] = t.stretch[fit.counterpart[both]] == t.stretch[before[both]]
     if not both.any():
-        return 1.0, 1.0
-    here, before = fit.counterpart[both], before[both]
-    scale = np.abs(fit.function.factor).mean()
-    length = np.abs(t.between(before, here)) * t.spacing[here] / (s.step[both] * scale)
-    turn = t.heading[here] - t.heading[before]
-    turn = (turn + np.pi) % (2 * np.pi) - np.pi
-    miss = (-1.0 if fit.function.mirrored else 1.0) * s.turn[both] - turn
-    return float(np.minimum(miss**2, 1.0).mean()), float((np.log(np.maximum(length, 0.1)) ** 2).mean())
+        return 1.0
+    unknowns = np.concatenate([fit.function.position, fit.function.factor])
+    way = np.angle(fitter.ahead @ unknowns - fitter.rows @ unknowns)
+    turn = (-1.0 if fit.function.mirrored else 1.0) * (way - np.roll(way, 1))[both]
+    miss = t.heading[fit.counterpart[both]] - t.heading[before[both]] - turn
+    miss = (miss + np.pi / 2) % np.pi - np.pi / 2
+    return float((miss**2).mean())
 
 
 def _explained(fitter: Fitter, query: Query, fit: Fit, at: NDArray[np.intp]) -> tuple[float, float]:

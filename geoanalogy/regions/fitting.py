@@ -144,6 +144,16 @@ class Fitter:
         rows = self.nodes.rows(source)
         return self._solve(rows, image[None], weight[None], stiffness)[0]
 
+    def through(self, node: NDArray[np.intp], image: Complex, factor: Complex, weight: Floats) -> Complex:
+        """Unknowns (2m,) of the smoothest function near given similarities at some of the nodes."""
+        m = len(self.nodes.at)
+        rows = np.zeros((2 * len(node), 2 * m), complex)
+        at = np.arange(len(node))
+        rows[at, node] = 1.0
+        rows[at + len(node), m + node] = self.nodes.spacing
+        goal = np.concatenate([image, factor * self.nodes.spacing])
+        return self._solve(rows, goal[None], np.concatenate([weight, 0.5 * weight])[None], (0.1, 0.1))[0]
+
     def _solve(self, rows: Complex, image: Complex, weight: Floats, stiffness: tuple[float, float]) -> Complex:
         """Weighted least squares with smoothness, for several candidates: (h, s) images and weights to (h, 2m)."""
         share = weight / np.maximum(weight.sum(1, keepdims=True), 1e-12)
@@ -152,7 +162,7 @@ class Fitter:
         right = rows.conj().T[None] @ (share * image)[:, :, None]
         return np.linalg.solve(left, right)[:, :, 0]
 
-    def fit(self, unknowns: Complex, mirrored: NDArray[np.bool_], rounds=ROUNDS) -> list[Fit]:
+    def fit(self, unknowns: Complex, mirrored: NDArray[np.bool_]) -> list[Fit]:
         """Refine candidates.
 
         Parameters
@@ -160,20 +170,20 @@ class Fitter:
         unknowns : (h, 2m) complex
             Functions to start from.
         mirrored : (h,) bool
-        rounds : sequence of (float, float)
-            Stiffness of each round.
         """
-        for stiffness in rounds:
-            at, image, weight, _, _ = self.counterparts(unknowns, mirrored)
+        for stiffness in ROUNDS:
+            _, image, weight, _, _ = self.counterparts(unknowns, mirrored)
             unknowns = self._solve(self.rows, image, weight + 1e-6, stiffness)
-        at, image, weight, distance, tilt = self.counterparts(unknowns, mirrored)
+        at, _, _, distance, tilt = self.counterparts(unknowns, mirrored)
         m = len(self.nodes.at)
         return [
             Fit(TransformationFunction(self.nodes, u[:m], u[m:], bool(flip)), a, d, t)
             for u, flip, a, d, t in zip(unknowns, mirrored, at, distance, tilt, strict=True)
         ]
 
-    def counterparts(self, unknowns: Complex, mirrored: NDArray[np.bool_]):
+    def counterparts(
+        self, unknowns: Complex, mirrored: NDArray[np.bool_]
+    ) -> tuple[NDArray[np.intp], Complex, Floats, Floats, Floats]:
         """Counterparts of the samples on the lines near their images, by Viterbi along the query's lines."""
         s, target = self.samples, self.target
         image = unknowns @ self.rows.T
@@ -209,7 +219,9 @@ class Fitter:
         goal = np.where(mirrored[:, None], np.conj(target.points[here]), target.points[here])
         return here, goal, weight, away, np.where(missing, np.pi / 2, skewed)
 
-    def _viterbi(self, cost, at, side, scale, mirrored):
+    def _viterbi(
+        self, cost: Floats, at: NDArray[np.intp], side: Floats, scale: Floats, mirrored: NDArray[np.bool_]
+    ) -> NDArray[np.intp]:
         """Index of the chosen candidate of every sample (h, s); -1: none."""
         s, target = self.samples, self.target
         count, length, width = cost.shape

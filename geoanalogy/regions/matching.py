@@ -1,26 +1,34 @@
 """Matching regions (algorithm 3.1): from a drawing and a query to the similar regions, with their dense mappings."""
 
 from collections.abc import Iterator, Sequence
+from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..geometry.contours import Complex, Floats
 from ..geometry.drawing import Drawing
-from ..progress import Progress, Stepper, run
+from ..progress import Progress, Stepper, run, within
 from .alignment import align
+from .correspondences import Correspondences, aligned, described
 from .evidence import Evidence, evidence, node_support, support
 from .fitting import Fit, Fitter
+from .linkage import branched, clusters, similarities
 from .options import RegionOptions
 from .query import Query
+from .refinement import Refined, refine
 from .transformation import Nodes, TransformationFunction
 
-#: Candidates that are fitted to the lines at most.
-MOST_CANDIDATES = 24
+#: Candidates that are fitted to the lines at most: those of single aligned lines, and sets of correspondences.
+MOST_ALIGNED, MOST_CLUSTERS = 16, 16
+#: Share of the query points that a set of correspondences must have.
+LEAST_SHARE = 0.15
 #: Candidates whose query points land on average nearer than this, in extents of the query, are one.
 SAME = 0.04
 #: Two matches are one target where this share of the samples of the lesser has its counterparts on lines of the better.
 SHARED = 0.5
+#: The same for branches, which share the lines of their trunk.
+ALL_SHARED = 0.85
 
 
 class RegionMatch:
@@ -91,22 +99,45 @@ class Matches(Sequence[RegionMatch]):
         All targets that were found, best first, those below the threshold as well.
     threshold : float
         Least similarity of those that are shown.
+    refined : Refined, optional
+        The refined correspondences, for a view of the transformation space.
+    nodes : Nodes, optional
+        The query points.
+    size : float
+        Extent of the query in the drawing's frame.
     """
 
-    def __init__(self, every: Sequence[RegionMatch], threshold: float):
+    def __init__(
+        self,
+        every: Sequence[RegionMatch],
+        threshold: float,
+        refined: Refined | None = None,
+        nodes: Nodes | None = None,
+        size: float = 1.0,
+    ):
         self.every = list(every)
         self.threshold = threshold
+        self.refined, self.nodes, self.size = refined, nodes, size
         self._shown = [m for m in self.every if m.similarity >= threshold]
 
     def above(self, threshold: float) -> "Matches":
         """The matches with at least this similarity; nothing is computed again."""
-        return Matches(self.every, threshold)
+        return Matches(self.every, threshold, self.refined, self.nodes, self.size)
 
     def __len__(self) -> int:
         return len(self._shown)
 
-    def __getitem__(self, index):
+    @overload
+    def __getitem__(self, index: int) -> RegionMatch: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[RegionMatch]: ...
+
+    def __getitem__(self, index: int | slice) -> RegionMatch | list[RegionMatch]:
         return self._shown[index]
+
+    def __repr__(self) -> str:
+        return f"Matches({self._shown!r})"
 
 
 def match_regions(
@@ -149,11 +180,28 @@ def matching(drawing: Drawing, query: ArrayLike, options: RegionOptions | None =
     nodes = Nodes.of(region.points, region.spacing, options.neighbourhood)
     fitter = Fitter(contours, region, nodes)
     yield 0.1, "aligning lines"
-    starts: list[tuple[Complex, bool]] = []
-    for a in align(contours, region.runs, region.rest, options.mirrored, 3 * MOST_CANDIDATES):
-        starts.append((fitter.start(a.source, a.target, np.ones(len(a.source)), (0.1, 0.1)), a.mirrored))
-    starts = _distinct(starts, SAME * region.size)[:MOST_CANDIDATES]
-    yield 0.5, "fitting"
+    courses = align(contours, region.runs, region.rest, options.mirrored, 3 * MOST_ALIGNED)
+    yield 0.2, "comparing descriptors"
+    noisy = Correspondences.joined(
+        [described(drawing, region, options.mirrored, options.largest_scale), aligned(courses)]
+    )
+    refined = yield from within(
+        refine(region.points, noisy, region.size, options.smoothing_radius * region.size), 0.3, 0.6
+    )
+    alike = similarities(nodes, refined, options.joint_tolerance)
+    least = max(3, round(LEAST_SHARE * len(region.points)))
+    sets = yield from within(clusters(nodes, refined, alike, least), 0.6, 0.8)
+    starts = [(fitter.start(a.source, a.target, np.ones(len(a.source)), (0.1, 0.1)), a.mirrored) for a in courses]
+    starts = _distinct(starts, SAME * region.size)[:MOST_ALIGNED]
+    sets = sets[:MOST_CLUSTERS]
+    if options.branches:
+        sets += [branched(s, nodes, refined, alike) for s in sets]
+    for s in sets:
+        c = s.members
+        u = fitter.through(refined.node[c], refined.image[c], refined.factor[c], refined.magnitude[c])
+        starts.append((u, bool(refined.mirrored[c[0]])))
+    starts = _distinct(starts, SAME * region.size)
+    yield 0.8, "fitting to the lines"
     found: list[tuple[float, RegionMatch, Fit]] = []
     if starts:
         fits = fitter.fit(np.array([u for u, _ in starts]), np.array([flip for _, flip in starts]))
@@ -164,7 +212,9 @@ def matching(drawing: Drawing, query: ArrayLike, options: RegionOptions | None =
     yield 0.9, "choosing"
     found.sort(key=lambda f: -f[0])
     chosen = list(_separate(found, fitter, options.branches))
-    return Matches(chosen[: options.most], options.threshold)
+    best = chosen[0].similarity if chosen else 0.0
+    least_shown = max(options.threshold, options.contrast * best)
+    return Matches(chosen[: options.most], least_shown, refined, nodes, region.size)
 
 
 def _distinct(starts: list[tuple[Complex, bool]], near: float) -> list[tuple[Complex, bool]]:
@@ -178,17 +228,33 @@ def _distinct(starts: list[tuple[Complex, bool]], near: float) -> list[tuple[Com
 
 
 def _separate(found: list[tuple[float, RegionMatch, Fit]], fitter: Fitter, branches: bool) -> Iterator[RegionMatch]:
-    """The matches, best first, without those that mostly repeat a better one."""
-    taken = np.zeros(len(fitter.target.points), bool)
+    """The matches, best first, without those that repeat better ones.
+
+    A match repeats where most of its counterparts lie on lines that better matches have taken; of branches, that may
+    share a trunk with one and a twig with another, only where nearly all lie on the lines of one better match.
+    """
+    taken: list[NDArray[np.bool_]] = []
     for _, match, fit in found:
         at = fit.counterpart[fit.counterpart >= 0]
         if not len(at):
             continue
-        if taken[at].mean() > (0.9 if branches else SHARED):
-            continue
-        scale = np.abs(fit.function.factor).mean()
-        reach = np.ceil(2.0 * fitter.samples.step.max() * scale / fitter.target.spacing[at]).astype(int)
-        for offset in range(-int(reach.max()), int(reach.max()) + 1):
-            beside = fitter.target.walk(at, np.where(np.abs(offset) <= reach, offset, 0))
-            taken[beside[beside >= 0]] = True
-        yield match
+        if branches:
+            repeats = any(own[at].mean() > ALL_SHARED for own in taken)
+        else:
+            repeats = bool(taken) and np.any(taken, axis=0)[at].mean() > SHARED
+        if not repeats:
+            taken.append(_lines_of(fit, fitter))
+            yield match
+
+
+def _lines_of(fit: Fit, fitter: Fitter) -> NDArray[np.bool_]:
+    """The points of the target's lines that a match takes: those between its counterparts."""
+    target = fitter.target
+    at = fit.counterpart[fit.counterpart >= 0]
+    scale = np.abs(fit.function.factor).mean()
+    reach = np.ceil(2.0 * fitter.samples.step.max() * scale / target.spacing[at]).astype(int)
+    out = np.zeros(len(target.points), bool)
+    for offset in range(-int(reach.max()), int(reach.max()) + 1):
+        beside = target.walk(at, np.where(np.abs(offset) <= reach, offset, 0))
+        out[beside[beside >= 0]] = True
+    return out

@@ -14,8 +14,11 @@ class RegionOptions:
     Attributes
     ----------
     threshold : float
-        Least similarity of a match that is returned, 0 to 1. Matches keep their similarity, so a slider filters them
+        Least similarity of a match that is shown, 0 to 1. Matches keep their similarity, so a slider filters them
         without computing anything again (`Matches.above`).
+    contrast : float
+        Least similarity of a match that is shown as a share of the best one's: where one place is much more alike than
+        all others, the others are clutter.
     query_kind : str
         "region" for a ring, "stroke" for an open line, "auto": a ring where the gap between its ends is no larger than
         one and a half times the longest of its edges, a stroke elsewhere.
@@ -42,7 +45,8 @@ class RegionOptions:
         Matches that are returned at most.
     """
 
-    threshold: float = 0.4
+    threshold: float = 0.25
+    contrast: float = 0.7
     query_kind: str = "auto"
     query_points: int = 50
     reach: float = 0.1
@@ -68,6 +72,7 @@ class RegionOptions:
 
 _RANGES = (
     ("threshold", 0.0, 1.0),
+    ("contrast", 0.0, 1.0),
     ("query_points", 8, 400),
     ("reach", 0.001, 1.0),
     ("largest_scale", 1.0, 100.0),

@@ -7,7 +7,7 @@ import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError
-from ..geometry.contours import Complex, even
+from ..geometry.contours import Complex, even, surrounding_circle
 from ..geometry.drawing import Drawing
 from ..tolerances import (
     LEAST_QUERY_TURN,
@@ -90,7 +90,7 @@ class Query:
             shape = line.buffer(options.reach * line.length)
         shapely.prepare(shape)
         contours = drawing.contours
-        inside = _covered(shape, contours.points)
+        inside = _covered(shape, contours.drawn)
         if not inside.any():
             raise InputError("No line of the drawing lies in the query: draw the query round the lines to be matched.")
         runs, rest = _runs(drawing, inside)
@@ -102,10 +102,10 @@ class Query:
         if ring:
             points, spacing = _grid(shape, options.query_points)
         else:
-            points = even(z, False, options.query_points)
+            closed = z[0] == z[-1]
+            points = even(z[:-1] if closed else z, bool(closed), options.query_points)
             spacing = float(np.abs(np.diff(points)).mean())
-        every = np.concatenate([contours.points[inside], points])
-        size = 2.0 * float(shapely.minimum_bounding_radius(shapely.multipoints(np.stack([every.real, every.imag], 1))))
+        _, size = surrounding_circle(np.concatenate([contours.points[inside], points]))
         return cls(shape, inside, runs, rest, points, spacing, size)
 
 
