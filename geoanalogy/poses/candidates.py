@@ -25,6 +25,10 @@ Indices = NDArray[np.intp]
 FOOTPRINT_STEP = 1.5
 FOOTPRINT_WIDTH = 3.0
 
+#: Pairs of features that can contribute less than this share of the strongest one are left out where places are only
+#: looked for.
+STRONG = 0.15
+
 #: Most directions a footprint is tried in.
 MOST_DIRECTIONS = 24
 
@@ -80,8 +84,8 @@ def find_candidates(importance: Importance, fields: Fields, blocked: NDArray[np.
 def _of_footprint(importance: Importance, fields: Fields, blocked: NDArray[np.bool_]) -> Candidates:
     """Accumulate for all samples of the footprint, moved rigidly, in the few directions that the features suggest."""
     grid = fields.grid
-    stride = max(1, int(FOOTPRINT_STEP * importance.width / grid.spacing))
-    reach = grid.steps(np.abs(importance.samples).max(initial=0.0) * np.ones((1, 2)))[0, 0]
+    stride = max(1, round(FOOTPRINT_STEP * importance.width / grid.spacing))
+    importance = importance.of_strongest(STRONG)
     rows, columns = np.arange(0, grid.rows, stride), np.arange(0, grid.columns, stride)
     position, angle = [], []
     for direction in directions(importance):
@@ -89,7 +93,7 @@ def _of_footprint(importance: Importance, fields: Fields, blocked: NDArray[np.bo
         steps = grid.steps(importance.samples @ np.array([[c, s], [-s, c]]))
         row = rows[(rows + steps[:, 1].min() >= 0) & (rows + steps[:, 1].max() < grid.rows)]
         column = columns[(columns + steps[:, 0].min() >= 0) & (columns + steps[:, 0].max() < grid.columns)]
-        if not len(row) or not len(column) or reach < 0:
+        if not len(row) or not len(column):
             continue
         cells = (row[:, None] * grid.columns + column).ravel()
         offsets = steps[:, 1] * grid.columns + steps[:, 0]
@@ -109,7 +113,13 @@ def _of_footprint(importance: Importance, fields: Fields, blocked: NDArray[np.bo
     return Candidates(np.concatenate(position), np.concatenate(angle))
 
 
-def _accumulate(importance: Importance, fields: Fields, cells: Indices, offsets: Indices, direction: float) -> Array32:
+def _accumulate(
+    importance: Importance,
+    fields: Fields,
+    cells: Indices,
+    offsets: Indices,
+    direction: float,
+) -> Array32:
     """The importance of grid cells for one direction, with wide level sets; shape (cells,)."""
     total = np.zeros(len(cells), dtype=np.float32)
     width = np.float32(FOOTPRINT_WIDTH * importance.width)

@@ -1,5 +1,6 @@
 """How well poses answer the example: the importance of section 4.5, evaluated exactly at any pose."""
 
+import copy
 from dataclasses import dataclass
 from typing import Any
 
@@ -69,6 +70,22 @@ class Importance:
         self.width = query.width * scale
         self.samples = query.samples * scale * ((1.0, -1.0) if sense.mirrored else (1.0, 1.0))
         self.answers = answers(query, target, sense)
+
+    def of_strongest(self, share: float) -> "Importance":
+        """The same without the pairs of features that contribute little: cheaper, and enough to find where maxima are.
+
+        Parameters
+        ----------
+        share : float
+            Of the strongest pair's contribution, below which a pair is left out.
+
+        Returns
+        -------
+        Importance
+        """
+        result = copy.copy(self)
+        result.answers = {element: a.strongest(share) for element, a in self.answers.items()}
+        return result
 
     @property
     def bound(self) -> float:
@@ -149,8 +166,6 @@ class Importance:
     def kernel(self, misses: Misses) -> Array:
         """The kernel k of section 4.5: 1 on a level set, falling off linearly with the distance in the plane.
 
-        Corners are left without direction where the footprint's sides are samples: their places tell it, and better.
-
         Parameters
         ----------
         misses : Misses
@@ -163,7 +178,7 @@ class Importance:
         k: Array = (1 - WIDE_SHARE) * np.maximum(0.0, 1 - away) + WIDE_SHARE * np.maximum(0.0, 1 - away / WIDE_WIDTH)
         return np.where(misses.allowed, k, 0.0)
 
-    def directional(self, element: ElementType, misses: Misses) -> Array | float:
+    def directional(self, element: ElementType, misses: Misses) -> Array:
         """The directional level sets' kernel, to be multiplied with the positional one.
 
         Parameters
@@ -173,11 +188,30 @@ class Importance:
 
         Returns
         -------
-        ndarray of shape (relations, e, poses) or float
+        ndarray of shape (relations, e, poses)
         """
-        if element is ElementType.CORNER and self.query.rigid:
-            return 1.0
-        return np.maximum(0.0, 1 - np.abs(misses.turn) / self.query.options.direction_width)
+        k: Array = np.maximum(0.0, 1 - np.abs(misses.turn) / self.query.options.direction_width)
+        return np.where(self.directed(element)[:, None], k, 1.0)
+
+    def directed(self, element: ElementType) -> NDArray[np.bool_]:
+        """Which entries ask for a direction.
+
+        Where sides and corners of a footprint are samples, their places tell the direction, and better: at a contact
+        with a corner the direction of the boundary is one edge's or the other's by a rounding error. Segments have one
+        direction.
+
+        Parameters
+        ----------
+        element : ElementType
+
+        Returns
+        -------
+        ndarray of shape (e,), bool
+        """
+        a = self.answers[element]
+        if not self.query.rigid or element is ElementType.SEGMENT:
+            return np.ones(len(a.sample), dtype=bool)
+        return (a.sample == 0) & (element is ElementType.POLYGON)
 
     def pairs(self, position: Array, angle: Array) -> dict[ElementType, Array]:
         """What every pair of features contributes: I_m times the weighted kernels of all its relations and samples.

@@ -196,6 +196,39 @@ class Answers:
     target_feature: Indices
     feature_start: Indices
 
+    def strongest(self, share: float) -> "Answers":
+        """The pairs that can contribute much: enough to find where maxima are.
+
+        Parameters
+        ----------
+        share : float
+            Of the strongest pair's contribution, below which a pair is left out.
+
+        Returns
+        -------
+        Answers
+        """
+        possible = self.accuracy * np.add.reduceat(self.weight.sum(axis=0), self.pair_start)
+        pairs = np.flatnonzero(possible >= share * possible.max())
+        size = np.diff(np.append(self.pair_start, len(self.target)))
+        entry = np.flatnonzero(np.repeat(possible >= share * possible.max(), size))
+        source = self.source_feature[pairs]
+        return Answers(
+            relations=self.relations,
+            target=self.target[entry],
+            sample=self.sample[entry],
+            weight=self.weight[:, entry],
+            value=self.value[:, entry],
+            turn=self.turn[:, entry],
+            inner=self.inner[entry],
+            contact=self.contact[entry],
+            pair_start=np.cumsum(np.append(0, size[pairs][:-1])),
+            accuracy=self.accuracy[pairs],
+            source_feature=source,
+            target_feature=self.target_feature[pairs],
+            feature_start=np.flatnonzero(np.append(True, np.diff(source) != 0)),
+        )
+
 
 def answers(query: Query, target: Arrangement, sense: Sense) -> dict[ElementType, Answers]:
     """Pair the features asked for with those of an arrangement that may answer.

@@ -9,19 +9,22 @@ from .importance import WIDE_SHARE, WIDE_WIDTH, Importance, Misses
 Array = NDArray[np.float64]
 
 #: Iterations of reweighted least squares.
-ITERATIONS = 7
+ITERATIONS = 8
 
 #: Candidates kept after an iteration, by its number: at the most so many, within this share of the best importance.
 #: Falling behind early says little, falling behind late is final.
 KEPT = {0: (24, 0.4), 1: (20, 0.4), 2: (16, 0.4), 3: (12, 0.4)}
+
+#: Pairs of features that can contribute less than this share of the strongest one do not pull at poses.
+STRONG = 0.05
 
 #: Candidates nearer than this, in half-widths of level sets, have come to the same maximum.
 SAME_MAXIMUM = 0.1
 
 #: Misses below this share of the width count as met when they are weighted: keeps the weights finite. Sharper with
 #: every iteration.
-MET = 0.05
-SHARPER = 0.3
+MET = 0.6
+SHARPER = 0.4
 
 
 def refine(importance: Importance, position: Array, angle: Array, floor: float = 0.0) -> tuple[Array, Array, Array]:
@@ -46,11 +49,12 @@ def refine(importance: Importance, position: Array, angle: Array, floor: float =
     """
     unit = np.array([importance.width, importance.width, importance.query.options.direction_width])
     best_position, best_angle, best = position, angle, np.full(len(position), -1.0)
+    strong = importance.of_strongest(STRONG)
     for iteration in range(ITERATIONS + 1):
         if not len(position):
-            break
-        misses = importance.misses(position, angle, uphill=True)
-        value, step = _step(importance, misses, angle, unit, MET * SHARPER**iteration)
+            return position, angle, np.zeros(0)
+        misses = strong.misses(position, angle, uphill=True)
+        value, step = _step(strong, misses, angle, unit, MET * SHARPER**iteration)
         better = value > best
         best_position = np.where(better[:, None], position, best_position)
         best_angle = np.where(better, angle, best_angle)
@@ -63,7 +67,7 @@ def refine(importance: Importance, position: Array, angle: Array, floor: float =
             kept = _leading(best_position, best_angle, best, unit, floor, *KEPT[iteration])
             position, angle = position[kept], angle[kept]
             best_position, best_angle, best = best_position[kept], best_angle[kept], best[kept]
-    return best_position, best_angle, best
+    return best_position, best_angle, importance(best_position, best_angle)
 
 
 def _leading(
@@ -109,10 +113,11 @@ def _step(
         slope = np.stack([c, s, around], axis=-1)
         weight = pull * missed.allowed / np.maximum(far, met)
         _add(normal, right, missed.place / importance.width, slope, weight)
-        if not (element is ElementType.CORNER and importance.query.rigid):
+        directed = importance.directed(element)
+        if directed.any():
             turn = missed.turn / unit[2]
             off = np.abs(turn)
-            weight = (off < 1) * strength * kernel / np.maximum(off, met)
+            weight = (off < 1) * directed[:, None] * strength * kernel / np.maximum(off, met)
             # Reference directions are taken as constant: those of straight segments are.
             normal[:, 2, 2] += weight.sum(axis=(0, 1))
             right[:, 2] += (weight * turn).sum(axis=(0, 1))
