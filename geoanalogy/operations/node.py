@@ -82,7 +82,7 @@ class Node:
         if not isinstance(plain, Mapping) or not isinstance(plain.get("id"), str):
             raise InputError("a node has no id; give it one")
         name, kind = plain["id"], plain.get("type")
-        if kind not in OPERATIONS:
+        if not isinstance(kind, str) or kind not in OPERATIONS:
             raise InputError(
                 f"node {name!r} is of the unknown type {kind!r}; it may come from a newer version, known are "
                 + ", ".join(OPERATIONS)
