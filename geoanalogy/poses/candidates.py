@@ -32,6 +32,9 @@ STRONG = 0.15
 #: Most directions a footprint is tried in.
 MOST_DIRECTIONS = 24
 
+#: Candidates of a footprint whose wide importance is below this share of the best one's are not refined.
+WORTH_REFINING = 0.45
+
 #: Maxima taken on to exact evaluation, per grid.
 MAXIMA = 12
 
@@ -87,7 +90,7 @@ def _of_footprint(importance: Importance, fields: Fields, blocked: NDArray[np.bo
     stride = max(1, round(FOOTPRINT_STEP * importance.width / grid.spacing))
     importance = importance.of_strongest(STRONG)
     rows, columns = np.arange(0, grid.rows, stride), np.arange(0, grid.columns, stride)
-    position, angle = [], []
+    position, angle, strength = [], [], []
     for direction in directions(importance):
         c, s = np.cos(direction), np.sin(direction)
         steps = grid.steps(importance.samples @ np.array([[c, s], [-s, c]]))
@@ -108,9 +111,13 @@ def _of_footprint(importance: Importance, fields: Fields, blocked: NDArray[np.bo
         r, k = np.divmod(best, len(columns))
         position.append(grid.points[rows[r] * grid.columns + columns[k]])
         angle.append(np.full(len(best), direction))
+        strength.append(sheet.ravel()[best])
     if not position:
         return Candidates(np.zeros((0, 2)), np.zeros(0))
-    return Candidates(np.concatenate(position), np.concatenate(angle))
+    found = np.concatenate(strength)
+    order = np.argsort(-found, kind="stable")[: 2 * MAXIMA]
+    order = order[found[order] >= WORTH_REFINING * found[order[0]]]
+    return Candidates(np.concatenate(position)[order], np.concatenate(angle)[order])
 
 
 def _accumulate(
