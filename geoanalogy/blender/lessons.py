@@ -27,6 +27,7 @@ from ..poses.propagate import PoseModel, learn_pose
 from ..poses.scatter import ScatterModel
 from ..progress import Stepper
 from ..tolerances import CONTAINED_SHARE
+from . import names
 from .evaluating import Surroundings, incoming_steps
 from .footprints import footprint_of, pose_of
 from .tree_store import placed_by
@@ -38,7 +39,7 @@ UNMOVED = 1e-4
 
 
 def scene_without(layout: Layout, items: Sequence[bpy.types.Object]) -> Scene:
-    """What comes in to an operation, without its own examples: another operation may have the same.
+    """What comes in to an operation, without the objects that it learns from: another operation may have placed them.
 
     Parameters
     ----------
@@ -49,8 +50,9 @@ def scene_without(layout: Layout, items: Sequence[bpy.types.Object]) -> Scene:
     -------
     Scene
     """
-    own = {item.name for item in items}
-    others = tuple(e for e in layout.elements if not (e.example and e.mesh in own))
+    own = {item.name for item in items if names.KEY not in item}
+    made = {(item[names.NODE], item[names.KEY]) for item in items if names.KEY in item}
+    others = tuple(e for e in layout.elements if not (e.example and e.mesh in own) and (e.node, e.key) not in made)
     return replace(layout, elements=others).scene
 
 

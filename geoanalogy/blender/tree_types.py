@@ -4,11 +4,13 @@ The nodes carry their operation as nested custom properties (see `tree_store`), 
 add-on; what is registered here only shows them.
 """
 
+from collections.abc import Mapping
+
 import bpy
 from bpy.props import FloatProperty, IntProperty
 
 from . import names
-from .plain import from_property, to_property
+from .plain import to_property
 
 #: Called after a setting that only sifts results has been changed; `refresh` puts itself here.
 on_sifted = []
@@ -49,8 +51,8 @@ class GEOANALOGY_NS_layout(bpy.types.NodeSocket):
         return (0.36, 0.69, 0.54, 1.0)
 
 
-def settings_of(node: bpy.types.Node) -> dict:
-    """The settings of a node's operation as plain data.
+def stored_settings(node: bpy.types.Node) -> Mapping[str, object]:
+    """The settings of a node's operation as they are stored.
 
     Parameters
     ----------
@@ -58,12 +60,12 @@ def settings_of(node: bpy.types.Node) -> dict:
 
     Returns
     -------
-    dict
+    mapping
         Empty where the node carries no operation.
     """
     operation = node.get(names.OPERATION)
     settings = operation.get("settings") if hasattr(operation, "items") else None
-    return from_property(settings) if hasattr(settings, "items") else {}
+    return settings if hasattr(settings, "items") else {}
 
 
 def change_setting(node: bpy.types.Node, name: str, value: object) -> None:
@@ -76,9 +78,9 @@ def change_setting(node: bpy.types.Node, name: str, value: object) -> None:
     value : object
         Plain data.
     """
-    operation = node.get(names.OPERATION)
-    if hasattr(operation, "items") and hasattr(operation.get("settings"), "items"):
-        operation["settings"][name] = to_property(value)
+    settings = stored_settings(node)
+    if name in settings:
+        settings[name] = to_property(value)
         for show in on_sifted:
             show(node)
 
@@ -91,9 +93,7 @@ class GEOANALOGY_ND_operation(bpy.types.Node):
     bl_width_default = 220.0
 
     def _threshold(self):
-        operation = self.get(names.OPERATION)
-        settings = operation.get("settings") if hasattr(operation, "items") else None
-        return float(settings.get("threshold", 0.0)) if hasattr(settings, "items") else 0.0
+        return float(stored_settings(self).get("threshold", 0.0))
 
     def _change_threshold(self, value):
         if value != self.threshold:
@@ -120,14 +120,14 @@ class GEOANALOGY_ND_operation(bpy.types.Node):
         self.outputs.new(names.LAYOUT_SOCKET, "Layout")
 
     def draw_label(self):
-        return self.name
+        return self.label or self.name
 
     def draw_buttons(self, context, layout):
         operation = self.get(names.OPERATION)
         if not hasattr(operation, "items"):
             layout.label(text="No operation", icon="ERROR")
             return
-        settings = operation.get("settings") or {}
+        settings = stored_settings(self)
         layout.label(text=str(operation.get("type", "")).capitalize(), icon="NODE")
         label, mesh = settings.get("label"), settings.get("mesh")
         if mesh:

@@ -7,6 +7,7 @@ import sys
 import bpy
 import pytest
 from conftest import INSIDE_BLENDER, ROOT
+from flats import bed, placed, results, rooms
 
 BATCH = str(ROOT / "batch.py")
 
@@ -73,3 +74,86 @@ def test_batch_py_uses_the_engine_of_the_enabled_add_on(profile):
     script = f"import runpy, sys; runpy.run_path({BATCH!r})['command_line'](); print('geoanalogy' in sys.modules)"
     done = run([bpy.app.binary_path, "--background", "--python-expr", script], profile)
     assert "False" in done.stdout.splitlines()
+
+
+@pytest.fixture
+def furnished(tmp_path):
+    """A file with rooms, a bed and its propagation."""
+    rooms()
+    bed()
+    bpy.ops.geoanalogy.propagate("EXEC_DEFAULT", True, most=0, threshold=0.95)
+    render = bpy.context.scene.render
+    render.resolution_x, render.resolution_y = 48, 32
+    path = tmp_path / "flat.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+def test_replay_writes_the_same_scene_and_a_picture(furnished, tmp_path):
+    expected = placed()
+    arguments = ["--output", str(tmp_path / "out.blend"), "--render", str(tmp_path / "out.png")]
+    if INSIDE_BLENDER:
+        done = run([bpy.app.binary_path, "-b", str(furnished), "--python", BATCH, "--", "replay", *arguments], tmp_path)
+    else:
+        done = run(batch_command("replay", str(furnished), *arguments), tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert f"1 operations replayed, {len(expected)} objects made" in done.stdout
+    assert "[100%] placing objects" in done.stderr
+    assert (tmp_path / "out.png").read_bytes()[:4] == b"\x89PNG"
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "out.blend"))
+    assert placed() == expected
+
+
+def test_replay_takes_another_threshold(furnished, tmp_path):
+    output = tmp_path / "out.blend"
+    done = run(batch_command("replay", str(furnished), "--output", str(output), "--threshold", "0.2"), tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    before = len(results())
+    bpy.ops.wm.open_mainfile(filepath=str(output))
+    assert len(results()) > before
+
+
+def missing(folder):
+    return folder / "missing.blend"
+
+
+def empty(folder):
+    (folder / "empty.blend").touch()
+    return folder / "empty.blend"
+
+
+def garbage(folder):
+    (folder / "garbage.blend").write_bytes(b"BLENDER-garbage" * 100)
+    return folder / "garbage.blend"
+
+
+def without_operations(folder):
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "bare.blend"))
+    return folder / "bare.blend"
+
+
+def from_a_newer_version(folder):
+    rooms()
+    bed()
+    bpy.ops.geoanalogy.propagate("EXEC_DEFAULT", True)
+    bpy.context.scene.geoanalogy.tree.nodes[0]["operation"]["schema"] = "geoanalogy.operations/99"
+    bpy.ops.wm.save_as_mainfile(filepath=str(folder / "newer.blend"))
+    return folder / "newer.blend"
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (missing, "missing.blend is not there"),
+        (empty, "empty.blend is empty"),
+        (garbage, "garbage.blend cannot be opened"),
+        (without_operations, "has no operations"),
+        (from_a_newer_version, "saved by a newer version"),
+    ],
+)
+def test_a_file_that_cannot_be_replayed_is_code_3(make, message, tmp_path):
+    output = tmp_path / "out.blend"
+    done = run(batch_command("replay", str(make(tmp_path)), "--output", str(output)), tmp_path)
+    assert done.returncode == 3, done.stdout + done.stderr
+    assert message in done.stderr
+    assert not output.exists()

@@ -1,0 +1,37 @@
+"""Step 1: the plan."""
+
+import bpy
+
+from ..geoanalogy.blender import names
+from .base import SidebarPanel
+
+
+class GEOANALOGY_PT_plan(SidebarPanel, bpy.types.Panel):
+    """Import a plan, or label what is drawn."""
+
+    bl_idname = "GEOANALOGY_PT_plan"
+    bl_label = "1  Plan"
+    bl_order = 1
+
+    def draw(self, context):
+        layout = self.layout
+        layout.prop(context.scene.geoanalogy, "plan", text="")
+        column = layout.column(align=True)
+        column.operator("geoanalogy.import_plan", icon="IMPORT")
+        column.operator("geoanalogy.make_polygons", icon="MESH_DATA")
+        item = context.active_object
+        if item is not None and names.LABEL in item:
+            layout.prop(item, f'["{names.LABEL}"]', text="Label")
+        row = layout.row(align=True)
+        row.operator("geoanalogy.set_label", text="Label Selected", icon="BOOKMARKS").target = "OBJECTS"
+        row.operator("geoanalogy.set_label", text="Collection", icon="OUTLINER_COLLECTION").target = "COLLECTION"
+
+
+def register():
+    """Register the panel."""
+    bpy.utils.register_class(GEOANALOGY_PT_plan)
+
+
+def unregister():
+    """Unregister it."""
+    bpy.utils.unregister_class(GEOANALOGY_PT_plan)

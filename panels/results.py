@@ -1,0 +1,56 @@
+"""Step 4: sifting the results."""
+
+import bpy
+
+from ..geoanalogy.blender import names
+from ..geoanalogy.blender.explanation import explanation_of
+from ..geoanalogy.blender.tree_store import operation_nodes, tree_of
+from ..geoanalogy.blender.tree_types import stored_settings
+from .base import SidebarPanel, hint
+
+
+class GEOANALOGY_PT_results(SidebarPanel, bpy.types.Panel):
+    """Move the threshold, accept and reject results."""
+
+    bl_idname = "GEOANALOGY_PT_results"
+    bl_label = "4  Results"
+    bl_order = 4
+
+    def draw(self, context):
+        layout = self.layout
+        tree = tree_of(context.scene)
+        node = tree.nodes.active if tree is not None else None
+        if node is None or node not in operation_nodes(tree):
+            hint(layout, "Nothing propagated yet")
+            return
+        layout.label(text=f"{node.name}: {int(node.get(names.COUNT, 0))} placed", icon="OUTLINER_OB_GROUP_INSTANCE")
+        if "threshold" in stored_settings(node):
+            layout.prop(node, "threshold", slider=True)
+            layout.operator("geoanalogy.reject_below", icon="TRASH")
+        row = layout.row(align=True)
+        row.operator("geoanalogy.accept", icon="CHECKMARK")
+        row.operator("geoanalogy.reject", icon="X")
+        row.operator("geoanalogy.forget_decisions", text="", icon="LOOP_BACK")
+        problem = node.get(names.PROBLEM)
+        if problem:
+            hint(layout, problem, "ERROR")
+        self._draw_reasons(context, layout)
+
+    def _draw_reasons(self, context, layout):
+        item = context.active_object
+        if item is None or names.KEY not in item:
+            return
+        box = layout.box()
+        box.operator("geoanalogy.explain", icon="QUESTION")
+        for reason in explanation_of(context.scene, item) or ():
+            box.progress(factor=reason.share, type="BAR", text=f"{reason.text}  {reason.share:.2f}")
+
+
+def register():
+    """Register the panel."""
+    bpy.utils.register_class(GEOANALOGY_PT_results)
+
+
+def unregister():
+    """Unregister it."""
+    bpy.utils.unregister_class(GEOANALOGY_PT_results)

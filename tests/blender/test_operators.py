@@ -1,0 +1,736 @@
+"""Every operator: its result is the engine's, it can be undone, and bad input leaves the scene as it was."""
+
+import math
+
+import bpy
+import numpy as np
+import pytest
+from flats import (
+    ROOM,
+    activate,
+    bed,
+    box,
+    bridge,
+    engine,
+    everything,
+    face,
+    link,
+    operations_tree,
+    placed,
+    results,
+    rooms,
+)
+
+EXEC = "EXEC_DEFAULT"
+
+
+def propagate(**settings):
+    assert bpy.ops.geoanalogy.propagate(EXEC, True, **settings) == {"FINISHED"}
+    return operations_tree().nodes.active
+
+
+def engine_results(item, **options):
+    """What the engine itself says about an object among the labelled ones."""
+    bpy.context.view_layer.update()
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    (ground,) = bridge("ground").read_grounds(bpy.context.scene, depsgraph, {item.name})
+    footprints = bridge("footprints")
+    pose = footprints.pose_of(item, ground.plane)
+    ring = footprints.footprint_of(item, ground.plane, depsgraph)
+    learned = engine("poses.propagate").learn_pose(
+        ground.scene, pose, ring, engine("poses.options").PoseOptions(scale="fixed", threshold=0.1, **options)
+    )
+    return learned.place(ground.scene)
+
+
+def poses_of(items):
+    return [(*i.location[:2], i.rotation_euler[2]) for i in items]
+
+
+def same_poses(found, expected):
+    found, expected = np.array(found), np.array(expected)
+    assert found.shape == expected.shape
+    assert found[:, :2] == pytest.approx(expected[:, :2], abs=1e-5)
+    assert np.exp(1j * found[:, 2]) == pytest.approx(np.exp(1j * expected[:, 2]), abs=1e-5)
+
+
+# Labels, footprints, polygons, import
+
+
+def test_set_label_labels_objects_collections_and_takes_labels_away():
+    items = [face("a", ROOM), face("b", ROOM, at=(5, 0, 0))]
+    activate(*items)
+    assert bpy.ops.geoanalogy.set_label(EXEC, label=" bedroom ") == {"FINISHED"}
+    assert [item["ga_label"] for item in items] == ["bedroom", "bedroom"]
+    assert bpy.ops.geoanalogy.set_label(EXEC, label="") == {"FINISHED"}
+    assert [item.get("ga_label") for item in items] == [None, None]
+    holder = bpy.data.collections.new("flats")
+    bpy.context.scene.collection.children.link(holder)
+    bpy.context.view_layer.active_layer_collection = bpy.context.view_layer.layer_collection.children["flats"]
+    assert bpy.ops.geoanalogy.set_label(EXEC, label="flat", target="COLLECTION") == {"FINISHED"}
+    assert holder["ga_label"] == "flat"
+
+
+def test_set_label_is_undone():
+    item = activate(face("a", ROOM))
+    bpy.ops.ed.undo_push(message="scene")
+    bpy.ops.geoanalogy.set_label(EXEC, True, label="bedroom")
+    bpy.ops.ed.undo()
+    assert "ga_label" not in bpy.data.objects["a"]
+    bpy.ops.ed.redo()
+    assert bpy.data.objects["a"]["ga_label"] == "bedroom"
+    del item
+
+
+@pytest.mark.parametrize(("kind", "area"), [("hull", 3.5), ("outline", 3.0), ("box", 4.0)])
+def test_set_footprint_takes_hull_outline_or_box(kind, area):
+    rooms()
+    corner = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
+    sofa = activate(face("Sofa", corner, "sofa", at=(1, 1, 0)))
+    sofa.rotation_euler[2] = math.radians(90)
+    sofa.scale = (1.0, 1.0, 2.0)
+    assert bpy.ops.geoanalogy.set_footprint(EXEC, kind=kind) == {"FINISHED"}
+    polygon = engine().Polygon(np.array(sofa["ga_footprint"].to_list()).reshape(-1, 2))
+    assert polygon.area == pytest.approx(area, rel=1e-4)
+    ring = bridge("footprints").footprint_of(
+        sofa, bridge("planes").Plane(np.eye(4)), bpy.context.evaluated_depsgraph_get()
+    )
+    assert engine().Polygon(ring).centroid == pytest.approx(polygon.centroid, abs=1e-5)
+    assert bpy.ops.geoanalogy.set_footprint(EXEC, kind="none") == {"FINISHED"}
+    assert "ga_footprint" not in sofa
+
+
+def test_make_polygons_makes_a_face_of_every_spline():
+    bpy.ops.curve.primitive_bezier_circle_add(radius=2.0, location=(1, 2, 0))
+    activate(bpy.context.object)
+    assert bpy.ops.geoanalogy.make_polygons(EXEC, label="pond") == {"FINISHED"}
+    plan = bpy.context.scene.geoanalogy.plan
+    (made,) = plan.objects
+    assert (made.type, made["ga_label"], len(made.data.polygons)) == ("MESH", "pond", 1)
+    assert made.data.polygons[0].area == pytest.approx(math.pi * 4, rel=0.01)
+    assert tuple(made.location) == pytest.approx((1, 2, 0), abs=1e-3)
+
+
+GEOJSON = """{"type": "FeatureCollection", "features": [
+ {"type": "Feature", "properties": {"label": "house", "id": "h"}, "geometry": {"type": "Polygon", "coordinates":
+  [[[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]], [[4, 4], [5, 4], [5, 5], [4, 5], [4, 4]]]}},
+ {"type": "Feature", "properties": {"label": "room", "id": "r", "parent": "h", "orientation": 0.5,
+  "segment_labels": ["door", "", "", ""]}, "geometry": {"type": "Polygon", "coordinates":
+  [[[1, 1], [3, 1], [3, 3], [1, 3], [1, 1]]]}}]}"""
+
+
+def test_import_plan_keeps_what_the_file_says(tmp_path):
+    path = tmp_path / "plan.geojson"
+    path.write_text(GEOJSON)
+    assert bpy.ops.geoanalogy.import_plan(EXEC, filepath=str(path)) == {"FINISHED"}
+    bpy.context.view_layer.update()
+    (ground,) = bridge("ground").read_grounds(bpy.context.scene, bpy.context.evaluated_depsgraph_get())
+    read = engine("formats.files").read_scene(path)
+    for polygon in read.polygons:
+        found = ground.scene.polygon(polygon.id)
+        assert (found.label, found.parent, found.segment_labels) == (
+            polygon.label,
+            polygon.parent,
+            polygon.segment_labels,
+        )
+        assert found.area == pytest.approx(polygon.area, rel=1e-6)
+        assert found.centroid == pytest.approx(polygon.centroid, abs=1e-5)
+        assert found.orientation == (None if polygon.orientation is None else pytest.approx(polygon.orientation))
+
+
+# Propagation
+
+
+def test_propagate_places_what_the_engine_says():
+    rooms()
+    item = bed()
+    expected = [p for p in engine_results(item) if p.importance >= 0.5 and p.parent.id != "room 0"]
+    best = {}
+    for p in expected:
+        best.setdefault(p.parent.id, p)
+    node = propagate()
+    found = results()
+    same_poses(poses_of(found), [(*p.pose.position, p.pose.angle) for p in best.values()])
+    assert {i.data for i in found} == {item.data}
+    assert [i["ga_node"] for i in found] == [node.name] * len(found)
+    assert node["count"] == len(found) == 2
+
+
+def test_results_stand_like_the_example():
+    rooms()
+    item = bed()
+    item.location.z = 0.25
+    item.scale = (1.0, 1.2, 0.5)
+    item.rotation_euler = (0.0, 0.1, 0.0)
+    propagate()
+    for found in results():
+        assert found.location.z == pytest.approx(0.25)
+        assert tuple(found.scale) == pytest.approx((1.0, 1.2, 0.5))
+        assert found.rotation_euler[1] == pytest.approx(0.1)
+
+
+def test_mirrored_results_have_a_negative_y_scale():
+    face("left", [(0, 0), (4, 0), (4, 3), (0, 3)], "room")
+    face("left door", [(0, 0), (0.9, 0), (0.9, 0.9), (0, 0.9)], "door")
+    face("right", [(5, 0), (9, 0), (9, 3), (5, 3)], "room")
+    face("right door", [(8.1, 0), (9, 0), (9, 0.9), (8.1, 0.9)], "door")
+    wedge = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.2), (-0.5, 0.5)]
+    item = activate(face("Wedge", wedge, "wedge", at=(3.3, 2.4, 0.1)))
+    propagate(mirror="YES")
+    (found,) = results()
+    assert found.scale[1] == pytest.approx(-1.0)
+    assert found.location[:] == pytest.approx((5.7, 2.4, 0.1), abs=1e-3)
+    assert found.matrix_world.determinant() < 0
+    del item
+
+
+def test_the_mirrored_twin_of_a_tilted_object_is_its_mirror_image():
+    instances, planes = bridge("instances"), bridge("planes")
+    item = box("Ramp", (1.0, 0.5, 0.3), "ramp")
+    item.rotation_euler = (0.2, -0.3, 0.4)
+    item.scale = (1.0, 2.0, 3.0)
+    bpy.context.view_layer.update()
+    level = planes.Plane(np.eye(4))
+    own = bridge("footprints").pose_of(item, level)
+    rest = bridge("footprints").rest_of(item, own, level)
+    pose = engine("poses.pose").Pose((2.0, 1.0), 0.7, mirrored=True)
+    element = engine("operations.element").Element("ramp", "Ramp", "r", pose, None, "ramp", "r@0,0", scale=1.5)
+    one = bridge("tree_store").Placed("Ramp", item, rest)
+    assert instances.write_results(bpy.context.scene, "ramp", [element], [one], level) == 1
+    (found,) = results()
+    bpy.context.view_layer.update()
+    c, s = math.cos(0.7), math.sin(0.7)
+    frame = np.array([(c, -s, 0, 2), (s, c, 0, 1), (0, 0, 1, 0), (0, 0, 0, 1)])
+    expected = frame @ np.diag((1.5, -1.5, 1.5, 1.0)) @ rest
+    corners = np.column_stack([np.array(item.bound_box), np.ones(8)])
+    there = {tuple(p) for p in np.round((np.array(found.matrix_world) @ corners.T).T[:, :3], 3) + 0.0}
+    # A negative y scale shows the mesh mirrored about its own x axis: a box is its own mirror image.
+    assert there == {tuple(p) for p in np.round((expected @ corners.T).T[:, :3], 3) + 0.0}
+    assert found.scale[1] == pytest.approx(-3.0)
+
+
+def test_propagate_again_records_the_same_operation_anew():
+    rooms()
+    item = bed()
+    node = propagate()
+    item.location.x += 0.5
+    assert propagate(threshold=0.3).name == node.name
+    assert len(operations_tree().nodes) == 1
+    assert results()[0].location.x == pytest.approx(item.location.x + 5.0, abs=1e-3)
+
+
+def test_operations_build_on_each_other():
+    rooms()
+    item = bed()
+    first = propagate()
+    table = activate(box("Table", (0.4, 0.4, 0.4), "night table", at=(0.2, 1.75, 0)))
+    second = propagate()
+    assert [link.from_node.name for link in second.inputs[0].links] == [first.name]
+    offset = np.subtract(table.location, item.location)
+    for i, near in zip(results(second.name), results(first.name), strict=True):
+        assert np.subtract(i.location, near.location) == pytest.approx(offset, abs=1e-2)
+
+
+def test_children_of_the_example_come_along():
+    rooms()
+    item = bed()
+    pillow = link(bpy.data.objects.new("Pillow", item.data))
+    pillow.parent = item
+    pillow.location = (0.5, 0.0, 0.5)
+    pillow.scale = (0.1, 0.1, 0.1)
+    propagate()
+    bpy.context.view_layer.update()
+    beds = [i for i in results() if i.parent is None]
+    assert len(beds) == 2
+    for made in beds:
+        (child,) = made.children
+        assert child.matrix_world.translation == made.matrix_world @ pillow.location
+
+
+@pytest.mark.parametrize(
+    ("settings", "options"),
+    [
+        ({"mirror": "NO"}, {"mirror": False}),
+        ({"accumulation": "plane"}, {"accumulation": "plane"}),
+        ({"validate": False}, {"validate": False}),
+        ({"use_labels": False}, {"labels": False}),
+        ({"symmetries": True}, {"symmetries": True}),
+        ({"scale": "room"}, {"scale": "room"}),
+        ({"relations": {"corner ratio"}}, {"relations": ("corner ratio",)}),
+        ({"level_set_width": 0.1}, {"level_set_width": 0.1}),
+    ],
+    ids=lambda value: next(iter(value)),
+)
+def test_the_redo_panel_sets_the_engines_options(settings, options):
+    rooms(2)
+    bed()
+    node = propagate(**settings)
+    learned = bridge("tree_store").engine_node(node).operation.model.options
+    for name, value in options.items():
+        assert getattr(learned, name) == (pytest.approx(value) if isinstance(value, float) else value)
+
+
+def test_most_and_spacing_limit_what_is_shown():
+    rooms(2)
+    box("Nothing else", (0.1, 0.1, 0.1))
+    activate(box("Chair", (0.4, 0.4, 0.8), "chair", at=(0.5, 0.5, 0)))
+    propagate(most=0, threshold=0.2, mirror="YES")
+    many = len(results())
+    propagate(most=2, threshold=0.2, mirror="YES")
+    assert len(results()) < many
+    propagate(most=0, threshold=0.2, mirror="YES", spacing=3.0)
+    centres = np.array([i.location[:2] for i in results()])
+    gaps = np.linalg.norm(centres[:, None] - centres[None], axis=2)
+    same_room = (centres[:, None, 0] // 5) == (centres[None, :, 0] // 5)
+    assert gaps[same_room & (gaps > 0)].min(initial=9.0) >= 3.0
+
+
+def test_propagate_is_one_step_of_undo():
+    rooms()
+    bed()
+    bpy.ops.ed.undo_push(message="scene")
+    before = everything()
+    propagate()
+    after = placed()
+    bpy.ops.ed.undo()
+    assert everything() == before
+    bpy.ops.ed.redo()
+    assert placed() == after
+    assert operations_tree().nodes.active["count"] == len(after)
+
+
+# The other operations
+
+
+def test_array_fills_the_way_to_the_empty_in_every_like_room():
+    rooms(2)
+    tree = box("Lamp", (0.2, 0.2, 1.0), "lamp", at=(0.5, 2.6, 0))
+    end = link(bpy.data.objects.new("End", None))
+    end.location = (3.5, 2.6, 0)
+    activate(tree, end)
+    assert bpy.ops.geoanalogy.array(EXEC, True, spacing=1.0, mirror="NO") == {"FINISHED"}
+    found = np.array([i.location[:2] for i in results()])
+    own, other = found[found[:, 0] < 4.5], found[found[:, 0] > 4.5]
+    assert sorted(map(tuple, np.round(own, 2))) == [(1.5, 2.6), (2.5, 2.6), (3.5, 2.6)]
+    assert {(5.5, 2.6), (6.5, 2.6), (7.5, 2.6), (8.5, 2.6)} <= {tuple(p) for p in np.round(other, 2)}
+
+
+def test_transfer_takes_a_group_to_rooms_of_another_shape():
+    face("source", ROOM, "lawn")
+    face("target", [(10, 0), (18, 0), (18, 6), (10, 6)], "lawn")
+    flowers = [box(f"Flower {i}", (0.2, 0.2, 0.2), "flower", at=(x, y, 0)) for i, (x, y) in enumerate([(1, 1), (3, 2)])]
+    activate(*flowers)
+    assert bpy.ops.geoanalogy.transfer(EXEC, True) == {"FINISHED"}
+    # Twice as large: the inscribed circle, the unit of distances, is twice as large too.
+    assert sorted(tuple(np.round(i.location[:2], 2)) for i in results()) == [(12.0, 2.0), (16.0, 4.0)]
+    assert {i.data for i in results()} == {flower.data for flower in flowers}
+
+
+def test_transfer_takes_results_on():
+    face("source", ROOM, "bed")
+    face("target", [(10, 0), (18, 0), (18, 6), (10, 6)], "bed")
+    lamp = activate(box("Lamp", (0.2, 0.2, 1.0), "lamp", at=(0.5, 0.5, 0)))
+    assert bpy.ops.geoanalogy.scatter(EXEC, True, count=3, level_set_width=0.5) == {"FINISHED"}
+    inside = [i for i in results() if i.location.x < 5]
+    activate(*inside)
+    assert bpy.ops.geoanalogy.transfer(EXEC, True) == {"FINISHED"}
+    made = results(operations_tree().nodes.active.name)
+    assert len(made) == len(inside)
+    assert all(i.location.x > 9 and i.data == lamp.data for i in made)
+
+
+def test_scatter_draws_so_many_and_another_seed_draws_others():
+    rooms(2)
+    activate(box("Plant", (0.2, 0.2, 0.2), "plant", at=(2, 2, 0)))
+    assert bpy.ops.geoanalogy.scatter(EXEC, True, count=5) == {"FINISHED"}
+    first = placed()
+    assert len([p for p in results() if p.location.x > 4.5]) == 5
+    assert bpy.ops.geoanalogy.scatter(EXEC, True, count=5, seed=1) == {"FINISHED"}
+    assert placed() != first
+    assert bpy.ops.geoanalogy.scatter(EXEC, True, count=5, seed=0) == {"FINISHED"}
+    assert placed() == first
+
+
+def test_choose_places_one_of_several_in_every_room():
+    rooms(8)
+    red = box("Red", (2.0, 1.0, 0.5), "bed", at=(1.0, 2.5, 0))
+    blue = box("Blue", (2.0, 1.0, 0.5), "bed", at=(6.0, 2.5, 0))
+    activate(red, blue)
+    assert bpy.ops.geoanalogy.choose(EXEC, True, mirror="NO") == {"FINISHED"}
+    per_room = {}
+    for i in results():
+        per_room.setdefault(int(i.location.x // 5), []).append(i.data.name)
+    assert all(len(names) == 1 for names in per_room.values())
+    assert {n for names in per_room.values() for n in names} == {"Red", "Blue"}
+
+
+# Sifting
+
+
+def test_the_threshold_sifts_without_computing():
+    rooms()
+    # A room of another shape: its bed answers only part of the relations.
+    face("hall", [(15, 0), (22, 0), (22, 5), (15, 5)], "bedroom")
+    bed()
+    node = propagate(most=0, threshold=0.1)
+    every = placed()
+    evaluated = bridge("evaluating").evaluations.evaluated
+    node.threshold = 0.95
+    few = placed()
+    assert 0 < len(few) < len(every)
+    assert all(any(f[2:] == e[2:] for e in every) for f in few)
+    node.threshold = 0.1
+    assert placed() == every
+    assert bridge("evaluating").evaluations.evaluated == evaluated
+
+
+def test_the_threshold_sifts_in_a_reopened_file(tmp_path):
+    from flats import reload
+
+    rooms()
+    face("hall", [(15, 0), (22, 0), (22, 5), (15, 5)], "bedroom")
+    bed()
+    propagate(most=0, threshold=0.95)
+    few = placed()
+    reload(tmp_path / "f.blend")
+    node = operations_tree().nodes.active
+    node.threshold = 0.1
+    assert len(results()) > len(few)
+    node.threshold = 0.95
+    assert placed() == few
+
+
+def test_rejected_results_stay_away_and_come_back_when_forgotten():
+    rooms()
+    bed()
+    node = propagate()
+    every = placed()
+    gone = activate(results()[0])
+    key = gone["ga_key"]
+    assert bpy.ops.geoanalogy.reject(EXEC, True) == {"FINISHED"}
+    assert key not in [i["ga_key"] for i in results()]
+    assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
+    assert key not in [i["ga_key"] for i in results()]
+    assert bpy.ops.geoanalogy.forget_decisions(EXEC, True) == {"FINISHED"}
+    assert placed() == every
+    del node
+
+
+def test_accepted_results_stay_whatever_the_threshold():
+    rooms()
+    face("hall", [(15, 0), (22, 0), (22, 5), (15, 5)], "bedroom")
+    bed()
+    node = propagate(most=0, threshold=0.1)
+    worst = activate(results()[-1])
+    key = worst["ga_key"]
+    assert bpy.ops.geoanalogy.accept(EXEC, True) == {"FINISHED"}
+    node.threshold = 0.99
+    assert key in [i["ga_key"] for i in results()]
+
+
+def test_a_moved_result_that_is_accepted_stays_where_it_is():
+    rooms()
+    bed()
+    propagate()
+    moved = activate(results()[0])
+    key = moved["ga_key"]
+    moved.location.y -= 1.0
+    moved.rotation_euler[2] += 0.3
+    there = moved.location.copy(), moved.rotation_euler[2]
+    assert bpy.ops.geoanalogy.accept(EXEC, True) == {"FINISHED"}
+    assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
+    kept = next(i for i in results() if i["ga_key"] == key)
+    assert kept.location[:] == pytest.approx(there[0][:], abs=1e-5)
+    assert math.remainder(kept.rotation_euler[2] - there[1], 2 * math.pi) == pytest.approx(0.0, abs=1e-5)
+
+
+def test_reject_below_keeps_weak_results_away():
+    rooms()
+    face("hall", [(15, 0), (22, 0), (22, 5), (15, 5)], "bedroom")
+    bed()
+    node = propagate(most=0, threshold=0.95)
+    few = placed()
+    assert bpy.ops.geoanalogy.reject_below(EXEC, True) == {"FINISHED"}
+    node.threshold = 0.1
+    assert placed() == few
+
+
+def test_explain_lists_the_relations_of_a_result():
+    rooms()
+    bed()
+    propagate()
+    item = activate(results()[0])
+    assert bpy.ops.geoanalogy.explain(EXEC) == {"FINISHED"}
+    reasons = bridge("explanation").explanation_of(bpy.context.scene, item)
+    assert sum(r.share for r in reasons) == pytest.approx(1.0, abs=0.01)
+    assert any("door" in r.text for r in reasons)
+    bpy.ops.ed.undo_push(message="more")
+    bpy.ops.ed.undo_push(message="still more")
+    bpy.ops.ed.undo()
+    assert bridge("explanation").explanation_of(bpy.context.scene, bpy.data.objects[results()[0].name]) is None
+
+
+# The list of operations
+
+
+def three_operations():
+    rooms()
+    bed()
+    propagate()
+    for i, x in enumerate((0.2, 1.0)):
+        activate(box(f"Box {i}", (0.3, 0.3, 0.3), f"box {i}", at=(x, 1.7, 0)))
+        propagate()
+    return [node.name for node in bridge("tree_store").ordered_nodes(operations_tree())]
+
+
+def test_replay_gives_the_identical_scene():
+    three_operations()
+    before = everything(), placed()
+    for _ in range(2):
+        assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
+        assert (everything(), placed()) == before
+    assert bpy.ops.geoanalogy.clear(EXEC, True) == {"FINISHED"}
+    assert results() == []
+    assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
+    assert (everything(), placed()) == before
+
+
+def test_replay_follows_a_moved_example_and_what_builds_on_it():
+    rooms()
+    item = bed()
+    propagate()
+    activate(box("Table", (0.4, 0.4, 0.4), "night table", at=(0.2, 1.75, 0)))
+    propagate()
+    item.location.x += 0.25
+    assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
+    assert results("bed")[0].location.x == pytest.approx(item.location.x + 5.0, abs=1e-3)
+
+
+def test_what_a_user_puts_into_our_collections_stays():
+    three_operations()
+    own = bpy.data.objects.new("Mine", None)
+    bpy.data.collections["bed"].objects.link(own)
+    bpy.ops.geoanalogy.replay(EXEC, True)
+    bpy.ops.geoanalogy.clear(EXEC, True)
+    assert bpy.data.collections["bed"].objects[:] == [bpy.data.objects["Mine"]]
+
+
+def test_remove_takes_an_operation_out_of_the_chain():
+    names = three_operations()
+    tree = operations_tree()
+    tree.nodes.active = tree.nodes[names[1]]
+    assert bpy.ops.geoanalogy.remove_operation(EXEC, True) == {"FINISHED"}
+    assert results(names[1]) == []
+    last = tree.nodes[names[2]]
+    assert [link.from_node.name for link in last.inputs[0].links] == [names[0]]
+    assert last["stale"]
+    assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
+    assert "stale" not in last
+
+
+def test_move_changes_the_order():
+    names = three_operations()
+    tree = operations_tree()
+    tree.nodes.active = tree.nodes[names[2]]
+    ordered = bridge("tree_store").ordered_nodes
+    assert bpy.ops.geoanalogy.move_operation(EXEC, True, direction="UP") == {"FINISHED"}
+    assert [n.name for n in ordered(tree)] == [names[0], names[2], names[1]]
+    assert bpy.ops.geoanalogy.move_operation(EXEC, True, direction="DOWN") == {"FINISHED"}
+    assert [n.name for n in ordered(tree)] == names
+    with pytest.raises(RuntimeError, match="not one operation follows"):
+        bpy.ops.geoanalogy.move_operation(EXEC, True, direction="DOWN")
+
+
+def test_mute_hides_results_and_brings_them_back():
+    names = three_operations()
+    tree = operations_tree()
+    tree.nodes.active = tree.nodes[names[1]]
+    before = placed(results(names[1]))
+    assert bpy.ops.geoanalogy.mute_operation(EXEC, True) == {"FINISHED"}
+    assert results(names[1]) == []
+    assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
+    assert results(names[1]) == []
+    assert bpy.ops.geoanalogy.mute_operation(EXEC, True) == {"FINISHED"}
+    assert placed(results(names[1])) == before
+
+
+# When it cannot work
+
+
+def test_operators_say_why_they_are_greyed_out():
+    ops = bpy.ops.geoanalogy
+    for name in ("propagate", "array", "scatter"):
+        with pytest.raises(RuntimeError, match="Click an object first"):
+            getattr(ops, name)(EXEC)
+    for name in ("replay", "clear", "accept", "reject", "reject_below", "forget_decisions", "explain"):
+        with pytest.raises(RuntimeError, match="There are no operations yet"):
+            getattr(ops, name)(EXEC)
+    for name in ("remove_operation", "move_operation", "mute_operation"):
+        with pytest.raises(RuntimeError, match="There are no operations yet"):
+            getattr(ops, name)(EXEC)
+    activate(face("a", ROOM))
+    bpy.ops.object.mode_set(mode="EDIT")
+    for name in ("set_label", "set_footprint", "make_polygons", "import_plan", "propagate", "transfer", "choose"):
+        with pytest.raises(RuntimeError, match="Leave to Object Mode first"):
+            getattr(ops, name)(EXEC)
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def nothing_selected():
+    rooms()
+    bed().select_set(False)
+
+
+def no_label():
+    rooms()
+    del bed()["ga_label"]
+
+
+def outside():
+    rooms()
+    bed().location = (50, 50, 0)
+
+
+def empty_scene():
+    bed()
+
+
+def upright():
+    rooms()
+    bed().rotation_euler = (0, math.radians(90), 0)
+
+
+def no_extent():
+    rooms()
+    activate(link(bpy.data.objects.new("Point", None), "point"))
+
+
+def a_result():
+    rooms()
+    bed()
+    propagate()
+    activate(results()[0])
+
+
+def crossing_room():
+    rooms()
+    face("Knot", [(0, 0), (2, 2), (2, 0), (0, 1)], "room", at=(0, 10, 0))
+    bed()
+
+
+def newer():
+    rooms()
+    bed()
+    propagate()["operation"]["schema"] = "geoanalogy.operations/99"
+
+
+def damaged():
+    rooms()
+    bed()
+    propagate()["operation"]["settings"]["threshold"] = "high"
+
+
+def bad_footprint():
+    rooms()
+    bed()["ga_footprint"] = [0.0, 1.0, 2.0]
+
+
+def ring_of_operations():
+    three_operations()
+    tree = operations_tree()
+    tree.links.new(tree.nodes[2].outputs[0], tree.nodes[0].inputs[0])
+
+
+def two_ends():
+    rooms()
+    activate(bed(), *(link(bpy.data.objects.new("End", None)) for _ in range(2)))
+
+
+def end_is_no_empty():
+    rooms()
+    activate(bed(), box("Stop", (1, 1, 1)))
+
+
+def far_from_each_other():
+    rooms()
+    activate(bed(), box("Other", (1, 1, 1), "bed", at=(6, 1, 0)))
+
+
+def mixed_group():
+    a_result()
+    activate(results()[0], bpy.data.objects["Bed"])
+
+
+def nothing_at_all():
+    pass
+
+
+PROPAGATE = lambda: bpy.ops.geoanalogy.propagate(EXEC, True)  # noqa: E731
+REPLAY = lambda: bpy.ops.geoanalogy.replay(EXEC, True)  # noqa: E731
+TRANSFER = lambda: bpy.ops.geoanalogy.transfer(EXEC, True)  # noqa: E731
+ARRAY = lambda **k: bpy.ops.geoanalogy.array(EXEC, True, **k)  # noqa: E731
+CASES = [
+    (nothing_selected, PROPAGATE, "nothing is selected; select the object"),
+    (no_label, PROPAGATE, "object 'Bed' has no label"),
+    (outside, PROPAGATE, "object 'Bed': the example at x 50, y 50 lies outside every polygon"),
+    (empty_scene, PROPAGATE, "the scene has no labelled outlines"),
+    (upright, PROPAGATE, "object 'Bed' has its x axis upright"),
+    (no_extent, PROPAGATE, "object 'Point' has no extent on the plan"),
+    (a_result, PROPAGATE, "is a result of 'bed' itself; select the example"),
+    (crossing_room, PROPAGATE, "polygon 'Knot' crosses or touches itself"),
+    (bad_footprint, PROPAGATE, "object 'Bed' has a footprint that is no list of x, y pairs"),
+    (newer, REPLAY, "the operation 'bed' was saved by a newer version"),
+    (newer, PROPAGATE, "the operation 'bed' was saved by a newer version"),
+    (damaged, REPLAY, "'high' is no finite number"),
+    (ring_of_operations, REPLAY, "the nodes form a circle"),
+    (two_ends, ARRAY, "several objects mark the array's end"),
+    (end_is_no_empty, ARRAY, "object 'Stop' is to mark the array's end, but is no empty"),
+    (outside, ARRAY, "object 'Bed': the example at x 50"),
+    (bed_in_rooms := lambda: (rooms(), bed()), lambda: ARRAY(spacing=0.0), "the spacing of the array is 0"),
+    (nothing_at_all, TRANSFER, "nothing is selected; select the objects to transfer"),
+    (far_from_each_other, TRANSFER, "select objects of one polygon"),
+    (mixed_group, TRANSFER, "select either results or objects of your own"),
+    (outside, TRANSFER, "object 'Bed' lies outside every polygon"),
+    (nothing_at_all, lambda: bpy.ops.geoanalogy.choose(EXEC, True), "nothing is selected"),
+    (nothing_at_all, lambda: bpy.ops.geoanalogy.set_label(EXEC, True, label="x"), "nothing is selected"),
+    (nothing_at_all, lambda: bpy.ops.geoanalogy.set_footprint(EXEC, True), "nothing is selected"),
+    (nothing_at_all, lambda: bpy.ops.geoanalogy.make_polygons(EXEC, True), "nothing is selected"),
+    (no_extent, lambda: bpy.ops.geoanalogy.set_footprint(EXEC, True, kind="outline"), "object 'Point' has no faces"),
+    (
+        lambda: activate(face("Knot", [(0, 0), (2, 2), (2, 0), (0, 1)])),
+        lambda: bpy.ops.geoanalogy.make_polygons(EXEC, True),
+        "polygon 'Knot' crosses or touches itself",
+    ),
+    (a_result, lambda: (activate(bpy.data.objects["Bed"]), bpy.ops.geoanalogy.accept(EXEC)), "no result is selected"),
+    (a_result, lambda: (activate(bpy.data.objects["Bed"]), bpy.ops.geoanalogy.explain(EXEC)), "no result is active"),
+]
+
+
+@pytest.mark.parametrize(("make", "act", "message"), CASES, ids=[f"{i} {m[:30]}" for i, (_, _, m) in enumerate(CASES)])
+def test_bad_input_is_named_and_leaves_the_scene_as_it_was(make, act, message):
+    make()
+    before = everything()
+    with pytest.raises(RuntimeError, match=message):
+        act()
+    assert everything() == before
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("plan.geojson", '{"type": "FeatureCollection", "features": [', "plan.geojson"),
+        ("plan.svg", "<svg><rect", "plan.svg"),
+        ("plan.dxf", "0\nSECTION\n2\nENTITIES\nnonsense", "plan.dxf"),
+        ("plan.txt", "hello", "plan.txt"),
+        ("empty.geojson", '{"type": "FeatureCollection", "features": []}', "empty"),
+    ],
+)
+def test_a_malformed_plan_is_named_and_leaves_the_scene_as_it_was(tmp_path, name, text, message):
+    path = tmp_path / name
+    path.write_text(text)
+    before = everything()
+    with pytest.raises(RuntimeError, match=message):
+        bpy.ops.geoanalogy.import_plan(EXEC, True, filepath=str(path))
+    assert everything() == before
+    with pytest.raises(RuntimeError, match="nowhere"):
+        bpy.ops.geoanalogy.import_plan(EXEC, True, filepath=str(tmp_path / "nowhere.geojson"))
