@@ -22,7 +22,7 @@ from .validation import Validation
 Array = NDArray[np.float64]
 
 #: Cells of the distribution, per parent: its kernel is wide, and draws are anywhere in their cell.
-CELLS = 10_000
+CELLS = 2_500
 
 #: Draws that are validated together: shapely takes many outlines as fast as a few.
 BATCH = 64

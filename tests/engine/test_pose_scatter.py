@@ -123,7 +123,7 @@ def test_directions_are_the_strongest_level_sets_or_any(model):
     results = drawn(model, count=30)
     relative = np.array([(r.pose.angle - 0.4) % (np.pi / 2) for r in results if not r.mirrored])
     # Near a corner the direction towards it may be the strongest.
-    assert np.quantile(np.minimum(relative, np.pi / 2 - relative), 0.9) < 0.05
+    assert np.median(np.minimum(relative, np.pi / 2 - relative)) < 1e-3
     anywhere = np.array([r.pose.angle for r in drawn(model, count=60, directions="random")])
     assert np.histogram(anywhere, bins=4, range=(0, 2 * np.pi))[0].min() > 10
 
