@@ -68,7 +68,9 @@ class Importance:
         self.sense = sense
         self.scale = scale
         self.width = query.width * scale
-        self.samples = query.samples * scale * ((1.0, -1.0) if sense.mirrored else (1.0, 1.0))
+        #: Whether poses are mirrored: an example that is mirrored itself has answers the other way about.
+        self.mirrored = sense.mirrored != query.pose.mirrored
+        self.samples = query.samples * scale * ((1.0, -1.0) if self.mirrored else (1.0, 1.0))
         self.answers = answers(query, target, sense)
 
     def of_strongest(self, share: float) -> "Importance":

@@ -143,7 +143,7 @@ def importance_field(model: PoseModel, target: Arrangement, cells: int = CELLS) 
         value, direction = accumulate_in_plane(importance, fields, free)
         better = value > best
         best[better], angle[better] = value[better], direction[better]
-        mirrored[better], scale[better] = importance.sense.mirrored, importance.scale
+        mirrored[better], scale[better] = importance.mirrored, importance.scale
     return ImportanceField(fields.grid.points[free], best, angle, mirrored, scale, spacing)
 
 
