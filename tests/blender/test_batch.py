@@ -7,7 +7,7 @@ import sys
 import bpy
 import pytest
 from conftest import INSIDE_BLENDER, ROOT
-from flats import bed, placed, results, rooms
+from flats import bed, face, placed, results, rooms
 
 BATCH = str(ROOT / "batch.py")
 
@@ -78,8 +78,9 @@ def test_batch_py_uses_the_engine_of_the_enabled_add_on(profile):
 
 @pytest.fixture
 def furnished(tmp_path):
-    """A file with rooms, a bed and its propagation."""
+    """A file with rooms, one of another shape, a bed and its propagation."""
     rooms()
+    face("hall", [(15, 0), (22, 0), (22, 5), (15, 5)], "bedroom")
     bed()
     bpy.ops.geoanalogy.propagate("EXEC_DEFAULT", True, most=0, threshold=0.95)
     render = bpy.context.scene.render
