@@ -25,7 +25,7 @@ class Pose:
     Raises
     ------
     InputError
-        For numbers that are not finite.
+        For anything but finite numbers.
 
     Examples
     --------
@@ -38,11 +38,17 @@ class Pose:
     mirrored: bool = False
 
     def __post_init__(self) -> None:
-        x, y = (float(v) for v in self.position)
-        if not np.isfinite([x, y, self.angle]).all():
+        try:
+            x, y = (float(v) for v in self.position)
+            angle = float(self.angle)
+        except (TypeError, ValueError):
+            raise InputError(
+                "the pose's position is no pair of numbers, or its angle is none; give x, y and radians"
+            ) from None
+        if not np.isfinite([x, y, angle]).all():
             raise InputError("the pose has a position or angle that is not finite; give numbers")
         object.__setattr__(self, "position", (x, y))
-        object.__setattr__(self, "angle", float(self.angle))
+        object.__setattr__(self, "angle", angle)
 
     def to_scene(self, points: ArrayLike) -> NDArray[np.float64]:
         """Points of the pose's own frame (x along its direction) in scene coordinates.

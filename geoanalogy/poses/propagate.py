@@ -21,7 +21,7 @@ from .pose import Pose, footprint_ring
 from .query import Query
 from .refinement import refine
 from .results import PoseResults, PropagatedPose
-from .validation import Validation
+from .validation import JUTTING_SHARE, Validation
 
 Array = NDArray[np.float64]
 
@@ -105,7 +105,7 @@ class PoseModel:
             yield i / len(targets), f"placing in {target.parent.label or target.parent.id}"
             found += self._place_in(target, spacing)
         scene.memory.settle()
-        found.sort(key=lambda p: self._rank(p.importance, p.mirrored, p.pose.angle, p.parent))
+        found.sort(key=lambda p: self._rank(p.importance, p.mirrored != self.pose.mirrored, p.pose.angle, p.parent))
         return PoseResults(found, self.footprint)
 
     def targets(self, scene: Scene) -> list[Polygon]:
@@ -168,16 +168,21 @@ class PoseModel:
         found: list[tuple[float, Array, float, Importance]] = []
         for importance in self.importances(target):
             slack = FOOTPRINT_STEP * importance.width
-            margin = float(np.hypot(*importance.samples.T).max()) + spacing if self._juts_out else spacing
+            share = 1.0 if self._validation.may_jut_out else 2 * JUTTING_SHARE
+            margin = share * float(np.hypot(*importance.samples.T).max()) + spacing
             fields = target.fields(spacing, margin)
             blocked = self._validation.blocked(target, fields, slack)
+            mirrored = importance.mirrored
             candidates = find_candidates(importance, fields, blocked)
-            if not len(candidates.angle):
+            # The example would outshine the other places of its room.
+            other = ~self._is_example(target, candidates.position, mirrored)
+            if not other.any():
                 continue
             factor = 1.0 if importance.scale == 1.0 else SCALED_FACTOR
             best = max((f[0] for f in found), default=0.0)
-            position, angle, value = refine(importance, candidates.position, candidates.angle, best / factor)
-            mirrored = importance.sense.mirrored
+            position, angle, value = refine(
+                importance, candidates.position[other], candidates.angle[other], best / factor
+            )
             kept = (value * factor >= self.options.threshold) & ~self._is_example(target, position, mirrored)
             position, angle, value = position[kept], angle[kept], value[kept]
             accepted = self._validation.accepts(target, position, angle, mirrored, importance.scale)
@@ -190,14 +195,6 @@ class PoseModel:
         """Sort best first; of equals, the object as it is before its mirror image, the least turned one first."""
         turn = angle - self.pose.angle - parent.main_orientation + self.parent.main_orientation
         return -round(importance, 4), mirrored, round(abs(float(wrap(np.array(turn)))), 3)
-
-    @property
-    def _juts_out(self) -> bool:
-        if self.footprint is None:
-            return False
-        low, high = self.parent.bounds[:2], self.parent.bounds[2:]
-        ring = self.pose.to_scene(self.footprint)
-        return bool((ring < low).any() or (ring > high).any())
 
     def _is_example(self, target: Arrangement, position: Array, mirrored: bool) -> NDArray[np.bool_]:
         """Whether poses are the example itself, or its mirror image in the same place."""
@@ -230,7 +227,7 @@ class PoseModel:
                 for k in kept
             ):
                 continue
-            pose = Pose((position[0], position[1]), angle % (2 * np.pi), importance.sense.mirrored)
+            pose = Pose((position[0], position[1]), angle % (2 * np.pi), importance.mirrored)
             explain = partial(importance.explain, position, angle)
             kept.append(PropagatedPose(pose, value, target.parent, importance.scale, explain))
         return kept
@@ -278,7 +275,7 @@ class PoseModel:
                 footprint_ring(plain["footprint"]),
                 PoseOptions.from_dict(plain["options"]),
             )
-        except (KeyError, TypeError) as error:
+        except (KeyError, TypeError, AttributeError) as error:
             raise InputError(f"the stored pose model lacks or garbles {error}; record the operation again") from error
 
 

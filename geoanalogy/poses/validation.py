@@ -50,6 +50,13 @@ class Validation:
         hit = {m.label for m in self._source.members if _intersects(np.array([outline]), self._obstacle(m))[0]}
         return inside, frozenset(hit)
 
+    @property
+    def may_jut_out(self) -> bool:
+        """Whether the object may straddle its parent's boundary: where the example does, or nothing is validated."""
+        if self._footprint is None:
+            return False
+        return not self._options.validate or self._at_example[0] < 1 - JUTTING_SHARE
+
     def _obstacle(self, member: Polygon) -> shapely.Geometry:
         """A member's outline, or what stands for it: a door with its swing."""
         ring = self._options.alternative_geometry.get(str(member.id))
@@ -89,9 +96,7 @@ class Validation:
         ndarray of shape (points,), bool
         """
         deep = fields.boundary_distance > slack
-        # An object that straddles its parent's boundary may do so elsewhere.
-        straddles = self._footprint is not None and self._at_example[0] < 1 - JUTTING_SHARE
-        blocked = np.zeros(deep.shape[1], dtype=bool) if straddles else ~fields.covered[0] & deep[0]
+        blocked = np.zeros(deep.shape[1], dtype=bool) if self.may_jut_out else ~fields.covered[0] & deep[0]
         for i, _ in self.obstacles(target):
             blocked |= fields.covered[i] & deep[i]
         return blocked
