@@ -8,8 +8,9 @@ from .importance import WIDE_SHARE, WIDE_WIDTH, Importance, Misses
 
 Array = NDArray[np.float64]
 
-#: Iterations of reweighted least squares.
-ITERATIONS = 8
+#: Iterations of reweighted least squares; fewer where no step is larger than this share of a half-width any more.
+SETTLED = 1e-4
+ITERATIONS = 6
 
 #: Candidates kept after an iteration, by its number: at the most so many, within this share of the best importance.
 #: Falling behind early says little, falling behind late is final.
@@ -24,7 +25,7 @@ SAME_MAXIMUM = 0.1
 #: Misses below this share of the width count as met when they are weighted: keeps the weights finite. Sharper with
 #: every iteration.
 MET = 0.6
-SHARPER = 0.4
+SHARPER = 0.3
 
 
 def refine(importance: Importance, position: Array, angle: Array, floor: float = 0.0) -> tuple[Array, Array, Array]:
@@ -62,6 +63,8 @@ def refine(importance: Importance, position: Array, angle: Array, floor: float =
         # Far steps lead to other maxima, which have candidates of their own.
         size = np.abs(step / unit).max(axis=1, keepdims=True)
         step = step * np.minimum(1.0, 2.0 * 0.8**iteration / np.maximum(size, 1e-12))
+        if iteration > max(KEPT) and size.max() < SETTLED:
+            break
         position, angle = position + step[:, :2], angle + step[:, 2]
         if iteration in KEPT:
             kept = _leading(best_position, best_angle, best, unit, floor, *KEPT[iteration])
