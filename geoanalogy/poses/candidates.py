@@ -218,8 +218,8 @@ def directions(importance: Importance) -> list[float]:
 def _level_sets(importance: Importance, fields: Fields, free: Indices):  # type: ignore[no-untyped-def]
     """The level sets of every relation and pair at free grid points: kernel times I_m, and the direction wanted there.
 
-    Yields per source feature and relation its weight I_l, the kernels (pairs, points) and the directions (pairs,
-    points).
+    Yields per source feature and relation its weight I_l, the accuracies I_m (pairs,), the kernels (pairs, points) and
+    the directions (pairs, points).
     """
     width = np.float32(importance.width)
     for a in importance.answers.values():
@@ -230,10 +230,11 @@ def _level_sets(importance: Importance, fields: Fields, free: Indices):  # type:
                 away /= width
                 kernel = (1 - WIDE_SHARE) * np.maximum(0, 1 - away)
                 kernel += WIDE_SHARE * np.maximum(0, 1 - away / WIDE_WIDTH)
-                kernel *= a.accuracy[start:end, None].astype(np.float32)
+                accuracy = a.accuracy[start:end].astype(np.float32)
+                kernel *= accuracy[:, None]
                 towards = fields.direction(relation)[a.target[entry][:, None], free]
                 towards = towards + a.turn[k, entry, None].astype(np.float32)
-                yield float(a.weight[k, entry[0]]), kernel, towards
+                yield float(a.weight[k, entry[0]]), accuracy, kernel, towards
 
 
 def accumulate_in_plane(importance: Importance, fields: Fields, free: Indices) -> tuple[Array32, Array32]:
@@ -258,7 +259,7 @@ def accumulate_in_plane(importance: Importance, fields: Fields, free: Indices) -
     strongest = np.zeros(len(free), dtype=np.float32)
     direction = np.zeros(len(free), dtype=np.float32)
     column = np.arange(len(free))
-    for weight, kernel, towards in _level_sets(importance, fields, free):
+    for weight, _, kernel, towards in _level_sets(importance, fields, free):
         best = np.argmax(kernel, axis=0)
         value = kernel[best, column] * np.float32(weight)
         total += value
@@ -297,7 +298,7 @@ def _agreed_directions(importance: Importance, fields: Fields, cells: Indices) -
     bins = int(np.ceil(4 * np.pi / importance.query.options.direction_width))
     share = np.zeros((bins, len(cells)))
     column = np.arange(len(cells))
-    for weight, kernel, towards in _level_sets(importance, fields, cells):
+    for weight, _, kernel, towards in _level_sets(importance, fields, cells):
         middle = np.rint(towards * (bins / (2 * np.pi))).astype(np.intp) % bins
         np.add.at(share, (middle, np.broadcast_to(column, middle.shape)), weight * kernel)
     share += np.roll(share, 1, axis=0) + np.roll(share, -1, axis=0)
@@ -346,32 +347,40 @@ def accumulate_in_pose_space(importance: Importance, fields: Fields, free: Indic
     bins = importance.query.options.direction_bins
     bin_width = 2 * np.pi / bins
     spread = int(np.ceil(importance.query.options.direction_width / bin_width))
-    total = np.zeros(len(free) * bins, dtype=np.float32)
+    around = np.arange(-spread, spread + 1)
+    fall = np.float32(bin_width / importance.query.options.direction_width)
+    # Padded, so that the directions around one are neighbours in memory; the pads are folded back at the end.
+    padded = bins + 2 * spread
+    total = np.zeros(len(free) * padded, dtype=np.float32)
     best = np.zeros_like(total)
-    for weight, kernel, towards in _level_sets(importance, fields, free):
-        pair, cell = np.nonzero(kernel > LEAST_KERNEL)
-        strength = kernel[pair, cell] * np.float32(weight)
-        exact = towards[pair, cell] / np.float32(bin_width)
-        middle = np.rint(exact).astype(np.int32)
+    for weight, accuracy, kernel, towards in _level_sets(importance, fields, free):
+        drawn = kernel > LEAST_KERNEL * accuracy[:, None]
         touched = []
-        for step in range(-spread, spread + 1):
-            off = np.abs(middle + step - exact) * np.float32(bin_width / importance.query.options.direction_width)
-            value = strength * np.maximum(0, 1 - off)
-            hit = value > 0
-            key = cell[hit] * bins + (middle[hit] + step) % bins
-            np.maximum.at(best, key, value[hit])
-            touched.append(key)
+        for pair in range(len(kernel)):
+            # In one pair's level set a cell occurs once, so that plain indexing finds the maximum over the pairs.
+            cell = np.flatnonzero(drawn[pair])
+            exact = towards[pair, cell] / np.float32(bin_width)
+            middle = np.rint(exact)
+            key = (cell * padded + middle.astype(np.intp) % bins)[:, None] + (around + spread)
+            value = 1 - fall * np.abs(around.astype(np.float32) - (exact - middle)[:, None])
+            value = np.maximum(0, value) * (kernel[pair, cell] * np.float32(weight))[:, None]
+            best[key] = np.maximum(best[key], value)
+            touched.append(key.ravel())
         keys = np.concatenate(touched)
-        # Each touched cell once: what was added is cleared, so that repeats add nothing.
-        keys = keys[np.argsort(keys, kind="stable")]
-        keys = keys[np.append(True, np.diff(keys) != 0)] if len(keys) else keys
+        # Cells that occur in several pairs are written several times with the same sum.
         total[keys] += best[keys]
         best[keys] = 0
-    return (total / np.float32(importance.query.total)).reshape(len(free), bins)
+    volume = total.reshape(len(free), padded)
+    volume[:, bins : bins + spread] += volume[:, :spread]
+    volume[:, spread : 2 * spread] += volume[:, bins + spread :]
+    return volume[:, spread : bins + spread] / np.float32(importance.query.total)
 
 
-#: Level sets weaker than this are not drawn into pose space.
-LEAST_KERNEL = 0.02
+#: Level sets are drawn into pose space where their kernel is above this: the narrow part, without its wide foot.
+LEAST_KERNEL = WIDE_SHARE * (1 - 1 / WIDE_WIDTH)
+
+#: Maxima of pose space below this share of the greatest are left out.
+LEAST_MAXIMUM = 0.3
 
 
 def _in_pose_space(importance: Importance, fields: Fields, free: Indices) -> Candidates:
@@ -381,7 +390,7 @@ def _in_pose_space(importance: Importance, fields: Fields, free: Indices) -> Can
     grid, bins = fields.grid, volume.shape[1]
     # A maximum is one among its directions and its neighbours' best; directions are cyclic.
     own = maximum_filter(volume, size=(1, 5), mode="wrap")
-    cell, b = np.nonzero((volume == own) & (volume > 0.5 * volume.max(initial=0.0)))
+    cell, b = np.nonzero((volume == own) & (volume > LEAST_MAXIMUM * volume.max(initial=0.0)))
     strength = volume[cell, b]
     order = np.argsort(-strength, kind="stable")
     radius = max(1.0, 2 * importance.width / grid.spacing)
