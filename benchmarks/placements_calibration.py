@@ -2,15 +2,16 @@
 
     GEOANALOGY_DATA=… python benchmarks/placements_calibration.py [--write] [--facades N] [--rounds N]
 
-Reads `cmp_facades`, `bubenec_city` and `r2v_floorplans` below the folder named by GEOANALOGY_DATA. Every layout gives a
-few cases: some rectangles of a label are shown, the others are to be found. Half of the layouts are fitted, the other
-half is reported. With ``--write`` the table is fitted to all and written to `geoanalogy/placements/calibration_table.py`.
+Reads `cmp_facades`, `bubenec_city` and `r2v_floorplans` below the folder named by GEOANALOGY_DATA. Every layout gives
+a few cases: some rectangles of a label are shown, the others are to be found. Half of the layouts are fitted, the
+other half is reported. With ``--write`` the table is fitted to all and written where the engine finds it.
 """
 
 import argparse
 import json
 import os
 import pathlib
+import pickle
 import sys
 from collections import defaultdict
 
@@ -24,11 +25,12 @@ from geoanalogy.placements import calibration, survey
 from geoanalogy.placements.arrangement import arrangement_of
 from geoanalogy.placements.boxes import union_overlap
 from geoanalogy.placements.evidence import AMONG, SINGLE, among_evidence
-from geoanalogy.placements.selection import without_overlaps
+from geoanalogy.placements.selection import rescaled, useful_cut, without_overlaps
 
 TABLE = pathlib.Path(__file__).resolve().parent.parent / "geoanalogy" / "placements" / "calibration_table.py"
 PLACED = ("window", "sill", "balcony", "blind", "cornice", "door", "shop", "deco", "pillar")
 RIGHT = 0.5
+ROOM_CASES, DRAWN_CASES = 9, 120
 
 
 def ring(box):
@@ -68,6 +70,28 @@ def facade_cases(path, rng):
             truth = truth[(union_overlap(truth, examples) <= 0.3).all(axis=1)]
             if len(truth):
                 yield path.stem, f"{label} {k}", scene, [(scene, b) for b in examples], truth
+        k = 4 if len(boxes) >= 12 else 2
+        order = rng.permutation(len(boxes))
+        target, low, high = cropped(scene, whole, rng)
+        middle = (boxes[:, :2] + boxes[:, 2:]) / 2
+        truth = boxes[((middle >= low) & (middle <= high)).all(axis=1)]
+        if len(truth) >= 3:
+            yield path.stem, f"{label} {k} abroad", target, [(scene, b) for b in boxes[order[:k]]], truth
+
+
+def cropped(scene, whole, rng):
+    """Part of a facade as another facade: whatever was learned of its edges and columns does not hold there."""
+    size = np.subtract(whole[2:], whole[:2])
+    low = whole[:2] + size * rng.uniform(0, 0.4, 2)
+    high = whole[2:] - size * rng.uniform(0, 0.4, 2)
+    polygons = [ga.Polygon(ring((*low, *high)), "facade", "facade", orientation=0.0)]
+    for p in scene.polygons[1:]:
+        x0, y0, x1, y1 = p.bounds
+        cut = np.array([max(x0, low[0]), max(y0, low[1]), min(x1, high[0]), min(y1, high[1])])
+        inside = max(cut[2] - cut[0], 0) * max(cut[3] - cut[1], 0) / p.area if (cut[2:] > cut[:2]).all() else 0
+        if inside > 0.5:
+            polygons.append(ga.Polygon(ring(cut), p.label, p.id, orientation=0.0))
+    return ga.Scene(polygons), low, high
 
 
 def row_of_parents(parts, label, gap):
@@ -112,7 +136,7 @@ def room_cases(path, rng):
                     rooms[kind].append((outline, inner, np.array(items[0]["box"], float).ravel() * scale))
     for kind, label in kinds.items():
         order = rng.permutation(len(rooms[kind]))
-        for n, start in enumerate(range(0, len(order) - 8, 8)):
+        for n, start in enumerate(range(0, len(order) - 13, 8)[:ROOM_CASES]):
             k = (2, 4, 6)[n % 3]
             scene, boxes = row_of_parents([rooms[kind][i] for i in order[start : start + 8 + k]], label, 2.0)
             yield f"{kind} {start}", f"{kind} {k}", scene, [(scene, b) for b in boxes[:k]], boxes[k:]
@@ -136,7 +160,8 @@ def plot_cases(path, rng):
         if abs(sides[0][0]) < abs(sides[0][1]):
             w, h = h, w
         middle = rect.mean(axis=0)
-        box = (*(middle - (w / 2, h / 2)), *(middle + (w / 2, h / 2)))
+        half = np.array([w, h]) / 2
+        box = np.concatenate([middle - half, middle + half])
         plots[plot["label"]].append((outline, [(thin_strip(front, outline, 0.3), "front")], box))
     for label, some in plots.items():
         for n in range(max(2, len(some) // 3)):
@@ -146,11 +171,64 @@ def plot_cases(path, rng):
                 yield f"{label} {n}", f"plot {label}", scene, [(scene, b) for b in boxes[:4]], boxes[4:]
 
 
+def drawn_street(rng):
+    """A street as one draws it: facades of regular windows; what belongs to every window or door, by label."""
+    off = rng.choice([0.0, 0.0, 0.01, 0.03])
+    size, step = rng.uniform((0.8, 1.2), (1.6, 2.0)), rng.uniform((2.4, 2.8), (3.6, 3.6))
+    polygons, placed, x = [], defaultdict(list), 0.0
+    gap, thick, over = rng.uniform(0.0, 0.4), rng.uniform(0.1, 0.4), rng.choice([0.0, rng.uniform(0.05, 0.3)])
+    for k in range(rng.integers(2, 4)):
+        columns, rows = rng.integers(2, 7), rng.integers(1, 6)
+        wide = size * (rng.uniform(0.7, 1.5) if rng.random() < 0.4 else 1.0, 1.0)
+        width, height = columns * step[0] + 1, rows * step[1] + 3.2
+        polygons.append((0, "facade", (x, 0, x + width, height)))
+        door = x + rng.uniform(0.2, 0.8) * width
+        polygons.append((0, "door", (door - 0.6, 0, door + 0.6, 2.2)))
+        placed["lamp"].append((door + 0.8, 1.6, door + 1.0, 2.0))
+        for i in range(columns):
+            for j in range(rows):
+                a = np.array([x + 1 + step[0] * i, 3.6 + step[1] * j]) + rng.normal(0, 1, 2) * off
+                b = a + wide
+                placed["window"].append((*a, *b))
+                placed["sill"].append((a[0] - over, a[1] - gap - thick, b[0] + over, a[1] - gap))
+                placed["lintel"].append((a[0] - over, b[1] + 0.1, b[0] + over, b[1] + 0.1 + thick))
+                placed["blind"].append((a[0] - 0.3, a[1], a[0], b[1]))
+                if j % 2:
+                    placed["balcony"].append((a[0] - 0.4, a[1] - 0.2, b[0] + 0.4, a[1] + 0.8))
+        x += width + 3
+    moved = {label: np.array(b) + rng.normal(0, 1, (len(b), 4)) * off for label, b in placed.items()}
+    return polygons, moved
+
+
+def drawn_cases(rng, count):
+    """Drawn streets: one label to be found, some of the others shown."""
+    for n in range(count):
+        polygons, placed = drawn_street(rng)
+        label = str(rng.choice(["sill", "sill", "lintel", "blind", "balcony", "lamp", "window"]))
+        others = [
+            o for o in ("window", "sill", "lintel", "blind") if o != label and (o == "window" or rng.random() < 0.4)
+        ]
+        boxes = placed[label]
+        everything = [*polygons, *((0, o, b) for o in others for b in placed[o])]
+        scene = ga.Scene([ga.Polygon(ring(b), o, orientation=0.0) for _, o, b in everything])
+        k = int(rng.choice([1, 2, 3, 4, 6]))
+        if len(boxes) < k + 2:
+            continue
+        # All of one facade as often as of any: a rule that was learned here is used there.
+        order = np.argsort(boxes[:, 0], kind="stable") if rng.random() < 0.5 else np.arange(len(boxes))
+        shown = rng.permutation(order[: max(k, len(boxes) // 2)])[:k]
+        truth = np.delete(boxes, shown, axis=0)
+        yield f"drawn {n}", f"drawn {label}", scene, [(scene, boxes[i]) for i in shown], truth
+
+
 def collected(cases):
     """Evidence of every arrangement of every case."""
     out = []
     for layout, kind, scene, shown, truth in cases:
-        model = ga.learn_placement([ga.Example(s, rectangle(b)) for s, b in shown])
+        try:
+            model = ga.learn_placement([ga.Example(s, rectangle(b)) for s, b in shown])
+        except ga.InputError:  # all that is shown lies beyond the edge of the facade
+            continue
         lesson = model.lesson
         found = []
         for parent in (p for p in scene.polygons if p.label == model.label):
@@ -173,7 +251,9 @@ def collected(cases):
                     "truth": len(here),
                 }
             )
-        out.append({"layout": layout, "kind": kind, "parts": found, "truth": len(truth), "shown": len(shown)})
+        if not found:  # what contained the examples is not in the target
+            continue
+        out.append({"layout": layout, "kind": kind, "parts": found, "truth": len(truth), "one": lesson.one_each})
     return out
 
 
@@ -201,6 +281,20 @@ def fitted(evidence, right, weight, names, ridge=1e-4):
 
 
 def fit(cases):
+    """The two judgements: at home and abroad."""
+    return tuple(
+        judgement(
+            [
+                {**c, "parts": parts}
+                for c in cases
+                if (parts := [p for p in c["parts"] if bool(len(p["present"])) == home])
+            ]
+        )
+        for home in (True, False)
+    )
+
+
+def judgement(cases):
     """The three models."""
     stack = lambda key: np.concatenate([p[key] for c in cases for p in c["parts"]])  # noqa: E731
     weigh = lambda key: np.concatenate(  # noqa: E731
@@ -211,30 +305,35 @@ def fit(cases):
     first = np.hstack([stack("single"), stack("among")])
     look = fitted(first, right, weigh("boxes"), SINGLE + AMONG)
     for c in cases:
-        settle_evidence(c, look)
+        for p in c["parts"]:
+            settle_evidence(p, look)
     settle = fitted(np.hstack([first, stack("settled")]), right, weigh("boxes"), SINGLE + AMONG + calibration.SETTLED)
-    return glance, look, settle
+    return calibration.Judgement(glance, look, settle)
 
 
-def settle_evidence(case, look):
-    for p in case["parts"]:
-        first = np.hstack([p["single"], p["among"]])
-        p["settled"] = np.hstack(
-            [look.value(first)[:, None], among_evidence(p["boxes"], look.certainty(first), p["present"])]
-        )
+def settle_evidence(part, look):
+    """Evidence of the last model: what the second one makes of the candidates among each other."""
+    first = np.hstack([part["single"], part["among"]])
+    part["settled"] = np.hstack(
+        [look.value(first)[:, None], among_evidence(part["boxes"], look.certainty(first), part["present"])]
+    )
 
 
-def f1(case, settle, cuts):
+def f1(case, judgements, cuts):
     """F1 of a case at several cuts of the certainty, and of the best cut; its share of found boxes among all."""
-    kept, iou = [], []
+    kept, iou, scores = [], [], []
     for p in case["parts"]:
-        certainty = settle.certainty(np.hstack([p["single"], p["among"], p["settled"]]))
+        judge = judgements[0] if len(p["present"]) else judgements[1]
+        settle_evidence(p, judge.look)
+        certainty = judge.settle.certainty(np.hstack([p["single"], p["among"], p["settled"]]))
         index = without_overlaps(p["boxes"], certainty, p["present"], 0.15)
         kept.append(certainty[index])
+        one = case["one"] and not len(p["present"])
+        scores.append(rescaled(certainty[index], useful_cut(certainty[index], one)))
         iou.append(p["iou"][index])
-    kept, iou = np.concatenate(kept), np.concatenate(iou)
-    order = np.argsort(-kept, kind="stable")
-    kept, iou = kept[order], iou[order]
+    kept, iou, scores = np.concatenate(kept), np.concatenate(iou), np.concatenate(scores)
+    order = np.argsort(-scores, kind="stable")
+    kept, iou, scores = kept[order], iou[order], scores[order]
     free = np.ones(case["truth"], bool)
     hits = np.zeros(len(kept))
     for i in range(len(kept)):
@@ -243,6 +342,7 @@ def f1(case, settle, cuts):
             free[best], hits[i] = False, 1
     curve = 2 * np.cumsum(hits) / (np.arange(len(kept)) + 1 + case["truth"])
     at = [float(curve[(kept >= c).sum() - 1]) if (kept >= c).any() else 0.0 for c in cuts]
+    at.append(float(curve[(scores >= 0.5).sum() - 1]) if (scores >= 0.5).any() else 0.0)
     reach = np.concatenate([p["iou"] for p in case["parts"]])
     return [*at, float(curve.max(initial=0.0)), float((reach.max(axis=0, initial=0.0) >= RIGHT).mean())]
 
@@ -251,29 +351,36 @@ def report(title, cases, models):
     cuts = (0.2, 0.3, 0.4, 0.5)
     rows = defaultdict(list)
     for case in cases:
-        settle_evidence(case, models[1])
-        rows[case["kind"]].append(f1(case, models[2], cuts))
+        rows[case["kind"]].append(f1(case, models, cuts))
     print(f"{title}: mean F1 by cut, of the best cut, and share of boxes among the candidates")
-    print(f"  {'':18s} cases  " + "  ".join(f"{c:5.2f}" for c in cuts) + "   best  reach")
+    print(f"  {'':18s} cases  " + "  ".join(f"{c:5.2f}" for c in cuts) + "  default   best  reach")
     for kind in sorted(rows):
         print(f"  {kind:18s} {len(rows[kind]):5d}  " + "  ".join(f"{v:5.3f}" for v in np.mean(rows[kind], axis=0)))
 
 
 def written(models):
     rows = [
-        '"""Weights of the three logistic models of `calibration`, by the name of the evidence; written by the benchmark."""',
+        '"""Weights of the logistic models of `calibration` by evidence; a benchmark writes this file."""',
         "",
-        "TABLE: dict[str, dict[str, float]] = {",
+        "TABLE: dict[str, dict[str, dict[str, float]]] = {",
     ]
-    for stage, model in zip(("glance", "look", "settle"), models, strict=True):
-        rows += [f'    "{stage}": {{', f'        "offset": {model.offset:.4f},']
-        rows += [f'        "{n}": {w:.4f},' for n, w in zip(model.names, model.weights, strict=True) if abs(w) >= 5e-4]
+    for place, judge in zip(("at home", "abroad"), models, strict=True):
+        rows.append(f'    "{place}": {{')
+        for stage in ("glance", "look", "settle"):
+            model = getattr(judge, stage)
+            rows += [f'        "{stage}": {{', f'            "offset": {model.offset:.4f},']
+            rows += [
+                f'            "{n}": {w:.4f},'
+                for n, w in zip(model.names, model.weights, strict=True)
+                if abs(w) >= 5e-4
+            ]
+            rows.append("        },")
         rows.append("    },")
     TABLE.write_text("\n".join([*rows, "}", ""]))
 
 
 def use(models):
-    survey.GLANCE, survey.LOOK, survey.SETTLE = models
+    survey.AT_HOME, survey.ABROAD = models
 
 
 def main():
@@ -281,6 +388,7 @@ def main():
     parser.add_argument("--facades", type=int, help="at most so many")
     parser.add_argument("--rounds", type=int, default=2, help="how often candidates are collected anew")
     parser.add_argument("--write", action="store_true")
+    parser.add_argument("--keep", help="write the collected evidence to this file")
     parser.add_argument("--seed", type=int, default=5)
     args = parser.parse_args()
     root = os.environ.get("GEOANALOGY_DATA")
@@ -298,9 +406,12 @@ def main():
             yield from facade_cases(path, rng)
         yield from room_cases(root / "r2v_floorplans" / "dev" / "plans.json", rng)
         yield from plot_cases(root / "bubenec_city" / "dev" / "scene.json", rng)
+        yield from drawn_cases(rng, DRAWN_CASES)
 
     for turn in range(args.rounds):
         every = collected(cases())
+        if args.keep:
+            pathlib.Path(args.keep).write_bytes(pickle.dumps(every))
         layouts = sorted({c["layout"] for c in every})
         some = set(layouts[::2])
         models = fit([c for c in every if c["layout"] in some])

@@ -108,5 +108,5 @@ class Rectangle:
         u, v = (box[:2] + box[2:]) / 2
         size = box[2:] - box[:2]
         width, height = size if quarter % 2 == 0 else size[::-1]
-        angle = -((np.pi - (frame + quarter * np.pi / 2)) % (2 * np.pi) - np.pi)
+        angle = np.pi - (np.pi - (frame + quarter * np.pi / 2)) % (2 * np.pi)
         return cls(float(c * u - s * v), float(s * u + c * v), float(width), float(height), float(angle))

@@ -1,4 +1,4 @@
-"""How evidence adds up to certainty: three logistic models, fitted to real layouts.
+"""How evidence adds up to certainty: logistic models, fitted to real layouts.
 
 Fitted by ``benchmarks/placements_calibration.py`` to the development halves of the facades, plots and rooms: evidence
 that speaks for a candidate can only raise its certainty, evidence against only lower it, so that nothing is more
@@ -21,11 +21,12 @@ SETTLED = ("first impression", *(f"{name} by certainty" for name in AMONG))
 #: Evidence against a candidate: its weight is not positive.
 AGAINST = frozenset(
     (
+        "shortfall",
         "missed anchor",
         "missed along x",
         "missed along y",
         "shape",
-        "mean shape",
+        "beyond shapes",
         "covered",
         "uncovered",
         "touched",
@@ -33,7 +34,9 @@ AGAINST = frozenset(
     )
 )
 #: What is the same for all candidates of an arrangement: its weight may have either sign.
-CIRCUMSTANCES = frozenset(("absent", "reliability", "reliability along x", "reliability along y", "cohesion", "number"))
+CIRCUMSTANCES = frozenset(
+    ("reliability", "reliability along x", "reliability along y", "reliability in parent", "cohesion", "number")
+)
 
 
 @dataclass(frozen=True)
@@ -79,14 +82,46 @@ class Calibration:
         return 1.0 / (1.0 + np.exp(-np.clip(self.value(evidence), -60.0, 60.0)))
 
 
-def _calibration(stage: str, names: tuple[str, ...]) -> Calibration:
-    weights = TABLE[stage]
-    return Calibration(names, np.array([weights.get(name, 0.0) for name in names]), weights["offset"])
+@dataclass(frozen=True)
+class Judgement:
+    """The three models that rate candidates, one after another.
+
+    Attributes
+    ----------
+    glance : Calibration
+        From the nearest elements alone: what is worth a look.
+    look : Calibration
+        From all relations of a candidate.
+    settle : Calibration
+        Together with what else is likely in its row, its column and its place.
+    """
+
+    glance: Calibration
+    look: Calibration
+    settle: Calibration
+
+    @classmethod
+    def of(cls, table: dict[str, dict[str, float]]) -> "Judgement":
+        """The models of a table of weights by the name of the evidence.
+
+        Parameters
+        ----------
+        table : dict of str to dict of str to float
+
+        Returns
+        -------
+        Judgement
+        """
+        stages = (("glance", SINGLE), ("look", SINGLE + AMONG), ("settle", SINGLE + AMONG + SETTLED))
+        return cls(
+            *(
+                Calibration(names, np.array([table[stage].get(n, 0.0) for n in names]), table[stage]["offset"])
+                for stage, names in stages
+            )
+        )
 
 
-#: At a glance: what is worth a look.
-GLANCE = _calibration("glance", SINGLE)
-#: From all relations of a candidate.
-LOOK = _calibration("look", SINGLE + AMONG)
-#: Together with what else is likely in its row, its column and its place.
-SETTLE = _calibration("settle", SINGLE + AMONG + SETTLED)
+#: Where examples were drawn in the very arrangement: their rows and columns go on.
+AT_HOME = Judgement.of(TABLE["at home"])
+#: Where they were drawn elsewhere: only relations to what is there can tell.
+ABROAD = Judgement.of(TABLE["abroad"])

@@ -22,8 +22,14 @@ Array = NDArray[np.float64]
 CANDIDATE_CELL = 0.08
 #: The same for extents that are counted.
 EXTENT_CELL = 0.15
+#: Ways of keeping coordinates that are tried, of the five.
+WAYS = 3
+#: Cell, as a share of the candidates' one, in which predictions are equal but for rounding.
+EQUAL = 1e-4
 #: How many of the most predicted extents are crossed, along x and along y.
 CROSSED = (30, 20)
+#: Distance of their middles, in sizes, within which two boxes stand in one row.
+SAME_ROW = 0.35
 #: Largest factor by which a candidate's side may differ from all the examples'.
 LARGEST_STRETCH = 3.0
 
@@ -87,12 +93,39 @@ def predicted(lesson: Lesson, arrangement: Arrangement) -> Array:
     for label in lesson.labels:
         elements = arrangement.boxes.get(label)
         values = lesson.kept.boxes[BOX + label][lesson.positive, 0]
-        values = values[np.isfinite(values[:, 0, 0, 0])]
-        if elements is None or not len(values):
+        known = np.isfinite(values[:, 0, 0, 0])
+        if elements is None or not known.any():
             continue
-        x, y = (extents(values[:, axis], elements[:, axis], elements[:, axis + 2]) for axis in (0, 1))
-        found.append(crossings(x, y))
+        values, weights = values[known], lesson.weights[BOX + label][lesson.positive, 0][known]
+        x, y = (
+            np.where(
+                agreed_ways(weights[:, axis])[:, None, :, None],
+                extents(values[:, axis], elements[:, axis], elements[:, axis + 2]),
+                np.nan,
+            )
+            for axis in (0, 1)
+        )
+        boxes = crossings(x, y)
+        found.append(boxes[np.isfinite(boxes).all(axis=1)])
     return np.concatenate(found)
+
+
+def agreed_ways(weights: Array) -> NDArray[np.bool_]:
+    """Which ways of keeping coordinates along one axis are worth trying: those in which examples agree best.
+
+    Parameters
+    ----------
+    weights : ndarray of shape (m, 3, 4)
+        Of the box coordinates along the axis.
+
+    Returns
+    -------
+    ndarray of shape (m, 5), bool
+        In the order of `extents`.
+    """
+    low, high = weights[:, 0], weights[:, 2]
+    worth = np.concatenate([low[:, :3] + high[:, :3], low[:, :1] + high[:, 1:2], low[:, 3:] + high[:, 3:]], axis=1)
+    return worth >= np.sort(worth, axis=1)[:, -WAYS, None] - 1e-9
 
 
 def _from_parent(lesson: Lesson, arrangement: Arrangement) -> Array:
@@ -149,11 +182,16 @@ def most_predicted(low: Array, high: Array, cell: float, count: int) -> Array:
     keys = np.round(np.stack([low, high], axis=1) / cell).astype(np.int64)
     _, group, number = np.unique(_mixed(keys), return_inverse=True, return_counts=True)
     mean = np.stack([np.bincount(group, low), np.bincount(group, high)], axis=1) / number[:, None]
-    return mean[np.argsort(-number, kind="stable")[:count]]
+    order = np.argsort(-number, kind="stable")
+    if len(order) > count:
+        # Which of equally frequent extents come first is an accident of order: all of them, or none.
+        tied = number >= number[order[count - 1]]
+        order = np.flatnonzero(tied if tied.sum() <= 2 * count else number > number[order[count - 1]])
+    return mean[order]
 
 
 def distinct(boxes: Array, cell: Array) -> Array:
-    """One box of each cell of a grid in (x0, y0, x1, y1): the one nearest to the cell's mean.
+    """One box of each cell of a grid in (x0, y0, x1, y1): the one predicted most often, else nearest to the mean.
 
     Parameters
     ----------
@@ -165,12 +203,18 @@ def distinct(boxes: Array, cell: Array) -> Array:
     -------
     ndarray of shape (m, 4)
     """
-    keys = np.round(boxes / cell).astype(np.int64)
-    _, group, number = np.unique(_mixed(keys), return_inverse=True, return_counts=True)
+    if not len(boxes):
+        return boxes
+    _, exact, repeats = np.unique(
+        _mixed(np.round(boxes / (EQUAL * cell)).astype(np.int64)), return_inverse=True, return_counts=True
+    )
+    _, group, number = np.unique(
+        _mixed(np.round(boxes / cell).astype(np.int64)), return_inverse=True, return_counts=True
+    )
     mean = np.stack([np.bincount(group, column) for column in boxes.T], axis=1) / number[:, None]
     off = np.abs(boxes - mean[group]).sum(axis=1)
-    order = np.lexsort((off, group))
-    return boxes[order[np.concatenate([[0], np.cumsum(number)[:-1]])]] if len(boxes) else boxes
+    order = np.lexsort((off, -repeats[exact], group))
+    return boxes[order[np.concatenate([[0], np.cumsum(number)[:-1]])]]
 
 
 def _mixed(keys: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -210,7 +254,7 @@ def proposals(lesson: Lesson, arrangement: Arrangement, present: Array) -> Array
 
 
 def crossed(boxes: Array, present: Array, size: Array) -> Array:
-    """The most predicted extents along x crossed with those along y, and with those of the examples there.
+    """The most predicted extents along x crossed with those along y, and with the rows and columns of examples there.
 
     Parameters
     ----------
@@ -227,12 +271,66 @@ def crossed(boxes: Array, present: Array, size: Array) -> Array:
         np.concatenate(
             [
                 present[:, [axis, axis + 2]],
+                rhythm(present[:, [axis, axis + 2]]),
                 most_predicted(boxes[:, axis], boxes[:, axis + 2], EXTENT_CELL * size[axis], CROSSED[axis]),
             ]
         )
         for axis in (0, 1)
     )
     return crossings(x, y)
+
+
+def rhythm(extents_along: Array) -> Array:
+    """Where rows (or columns) go on: the steps between neighbouring rows repeated outwards, halved and thirded.
+
+    A facade shows ten windows of three of its six floors; the floors between and above them are where the others are.
+
+    Parameters
+    ----------
+    extents_along : ndarray of shape (n, 2)
+        Low and high edges of examples along one axis.
+
+    Returns
+    -------
+    ndarray of shape (m, 2)
+        Extents of rows that no example stands in.
+    """
+    rows = rows_of(extents_along)
+    if len(rows) < 2:
+        return np.zeros((0, 2))
+    middle, size = rows.mean(axis=1), rows[:, 1] - rows[:, 0]
+    steps = np.diff(middle)
+    found = []
+    for i, step in enumerate(steps):
+        parts = [n for n in (2, 3) if step / n > min(size[i], size[i + 1])]
+        for n in parts:
+            found += [(middle[i] + step * j / n, size[i] if 2 * j <= n else size[i + 1]) for j in range(1, n)]
+        for part in [step, *(step / n for n in parts)]:
+            found += [(middle[0] - part, size[0]), (middle[-1] + part, size[-1])]
+    at, of = np.array(found).T
+    free = (np.abs(at[:, None] - middle[None]) > SAME_ROW * of[:, None]).all(axis=1)
+    return np.stack([at - of / 2, at + of / 2], axis=1)[free]
+
+
+def rows_of(extents_along: Array) -> Array:
+    """Mean extents of rows: neighbours whose middles are nearer than a part of their size are one; ascending.
+
+    Parameters
+    ----------
+    extents_along : ndarray of shape (n, 2)
+
+    Returns
+    -------
+    ndarray of shape (r, 2)
+    """
+    if not len(extents_along):
+        return extents_along
+    middle = extents_along.mean(axis=1)
+    order = np.argsort(middle, kind="stable")
+    limit = SAME_ROW * (extents_along[:, 1] - extents_along[:, 0]).mean()
+    number = np.concatenate([[0], np.cumsum(np.diff(middle[order]) > limit)])
+    count = np.bincount(number)[:, None]
+    return np.stack([np.bincount(number, column) for column in extents_along[order].T], axis=1) / count
 
 
 def _plausible(boxes: Array, sizes: Array) -> NDArray[np.bool_]:

@@ -5,7 +5,9 @@ from numpy.typing import NDArray
 
 from .arrangement import Arrangement
 from .boxes import interval_overlap, overlap
+from .candidates import rhythm
 from .lesson import Lesson, Match, coverage
+from .signature import PARENT_BOX
 
 Array = NDArray[np.float64]
 
@@ -14,8 +16,10 @@ SINGLE = (
     "similarity",  # to the most similar example
     "mean similarity",
     "against cohesion",  # similarity over what examples have with each other
-    "best anchor",  # agreement with the group that agrees best, times its reliability
+    "shortfall",  # how far it is below that, against how far that is below 1
+    "best anchor",  # agreement with the group of elements that agrees best, times its reliability
     "anchors",  # mean agreement of all groups, by reliability
+    "sure anchors",  # the same by squared reliability
     "missed anchor",  # largest reliability times disagreement
     "along x",
     "along y",
@@ -23,8 +27,11 @@ SINGLE = (
     "best along y",
     "missed along x",
     "missed along y",
+    "in parent",  # agreement with the parent's box, times its reliability
+    "in parent along x",
+    "in parent along y",
     "shape",  # logarithmic difference in size to the example most alike
-    "mean shape",
+    "beyond shapes",  # how far its sides are beyond those of the examples, and as much again as these differ
     "covered",  # more of it is covered by elements of some label than of any example
     "uncovered",
     "touched",  # it covers more of some element than any example does
@@ -34,13 +41,18 @@ SINGLE = (
     "row and column",
     "mean row",
     "mean column",
-    "absent",  # no example was drawn here
+    "rhythm along x",  # stands in a column of an example, or where columns of examples go on
+    "rhythm along y",
     "reliability",  # of the examples' best group; the same for all candidates
     "reliability along x",
     "reliability along y",
+    "reliability in parent",
     "cohesion",
     "number",  # logarithm of the number of examples
 )
+
+#: How much less similar than examples are to each other a place may always be, in the unit of similarities.
+SLACK = 0.1
 
 #: The figures of a candidate among the others of its arrangement.
 AMONG = (
@@ -77,15 +89,17 @@ def single_evidence(
     p = lesson.positive
     n = len(boxes)
     similarity = lesson.similarities(matches)[:, p]
-    keys = list(matches)
-    reliable = np.array([lesson.reliability[key] for key in keys])
-    joint = np.stack([matches[key].joint[:, p].max(axis=1) for key in keys], axis=1)
+    keys = [key for key in matches if key != PARENT_BOX]
+    reliable = np.array([lesson.reliability[key] for key in keys]).reshape(-1, 3)
+    joint = np.array([matches[key].joint[:, p].max(axis=1) for key in keys]).reshape(-1, n).T
     of_boxes = [i for i, key in enumerate(keys) if matches[key].along_x is not None]
     x, y = (
-        np.stack([getattr(matches[keys[i]], name)[:, p].max(axis=1) for i in of_boxes], axis=1)
+        np.array([getattr(matches[keys[i]], name)[:, p].max(axis=1) for i in of_boxes]).reshape(-1, n).T
         for name in ("along_x", "along_y")
     )
     rx, ry, rj = reliable[of_boxes, 0], reliable[of_boxes, 1], reliable[:, 2]
+    parent = matches[PARENT_BOX]
+    in_parent = lesson.reliability[PARENT_BOX]
     size = np.log(boxes[:, 2:] - boxes[:, :2])
     taught_size = np.log(lesson.sizes[p])
     covered, uncovered, touched = _overlaps(lesson, arrangement, boxes)
@@ -98,17 +112,22 @@ def single_evidence(
         "similarity": best,
         "mean similarity": similarity.mean(axis=1),
         "against cohesion": np.minimum(best / max(lesson.cohesion, 0.05), 2.0),
-        "best anchor": (joint * rj).max(axis=1),
+        "shortfall": np.clip((lesson.cohesion - best) / (1.0 - lesson.cohesion + SLACK), 0.0, 3.0),
+        "best anchor": (joint * rj).max(axis=1, initial=0.0),
         "anchors": joint @ rj / max(rj.sum(), 1e-9),
-        "missed anchor": ((1 - joint) * rj).max(axis=1),
+        "sure anchors": joint @ rj**2 / max((rj**2).sum(), 1e-9),
+        "missed anchor": ((1 - joint) * rj).max(axis=1, initial=0.0),
         "along x": x @ rx**2 / max((rx**2).sum(), 1e-9),
         "along y": y @ ry**2 / max((ry**2).sum(), 1e-9),
-        "best along x": (x * rx).max(axis=1),
-        "best along y": (y * ry).max(axis=1),
-        "missed along x": ((1 - x) * rx).max(axis=1),
-        "missed along y": ((1 - y) * ry).max(axis=1),
+        "best along x": (x * rx).max(axis=1, initial=0.0),
+        "best along y": (y * ry).max(axis=1, initial=0.0),
+        "missed along x": ((1 - x) * rx).max(axis=1, initial=0.0),
+        "missed along y": ((1 - y) * ry).max(axis=1, initial=0.0),
+        "in parent": parent.joint[:, p].max(axis=1) * in_parent[2],
+        "in parent along x": parent.along_x[:, p].max(axis=1) * in_parent[0],
+        "in parent along y": parent.along_y[:, p].max(axis=1) * in_parent[1],
         "shape": np.minimum(np.hypot(*(size[:, None] - taught_size[None]).T).T.min(axis=1), 1.0),
-        "mean shape": np.minimum(np.hypot(*(size - taught_size.mean(axis=0)).T), 1.0),
+        "beyond shapes": np.minimum(np.hypot(*_beyond(size, taught_size).T), 1.0),
         "covered": covered,
         "uncovered": uncovered,
         "touched": touched,
@@ -118,14 +137,34 @@ def single_evidence(
         "row and column": np.minimum(rows.max(axis=1), columns.max(axis=1)),
         "mean row": rows.mean(axis=1),
         "mean column": columns.mean(axis=1),
-        "absent": np.full(n, float(not len(present))),
-        "reliability": np.full(n, rj.max()),
-        "reliability along x": np.full(n, rx.max()),
-        "reliability along y": np.full(n, ry.max()),
+        "rhythm along x": np.maximum(columns.max(axis=1), _rhythm(boxes, present, 0)),
+        "rhythm along y": np.maximum(rows.max(axis=1), _rhythm(boxes, present, 1)),
+        "reliability": np.full(n, rj.max(initial=0.0)),
+        "reliability along x": np.full(n, rx.max(initial=0.0)),
+        "reliability along y": np.full(n, ry.max(initial=0.0)),
+        "reliability in parent": np.full(n, in_parent[2]),
         "cohesion": np.full(n, lesson.cohesion),
         "number": np.full(n, np.log(len(p))),
     }
     return np.stack([figures[name] for name in SINGLE], axis=1)
+
+
+def _rhythm(boxes: Array, present: Array, axis: int) -> Array:
+    """Overlap of each box's extent along an axis with the best of those where the rows of examples go on."""
+    beats = rhythm(present[:, [axis, axis + 2]])
+    if not len(beats):
+        return np.zeros(len(boxes))
+    return interval_overlap(boxes, np.repeat(beats, 2, axis=1), axis).max(axis=1)
+
+
+def _beyond(size: Array, taught: Array) -> Array:
+    """By how much logarithms of sides leave the examples' range, widened by its own extent on either side.
+
+    Examples of one size ask for that size; examples of different sizes ask for sizes that follow from something else,
+    which may be larger or smaller than any of them.
+    """
+    low, high = taught.min(axis=0), taught.max(axis=0)
+    return np.clip(np.maximum(low - size, size - high) - (high - low), 0.0, None)
 
 
 def _overlaps(lesson: Lesson, arrangement: Arrangement, boxes: Array) -> tuple[Array, Array, Array]:

@@ -15,7 +15,7 @@ from ..geometry.rectangle import Rectangle
 from ..geometry.scene import Scene
 from ..relations.elements import Elements
 from ..relations.observation import Observation
-from ..tolerances import CONTAINED_SHARE, NEAR_PARENT, PARALLEL_ANGLE, SAME_RECTANGLE
+from ..tolerances import CONTAINED_SHARE, JUTTING_SHARE, NEAR_PARENT, PARALLEL_ANGLE, SAME_RECTANGLE
 
 Array = NDArray[np.float64]
 
@@ -220,7 +220,9 @@ def parents_of(examples: Sequence[Example]) -> list[Polygon]:
     InputError
         For an example that lies in no polygon and near none of the label that contains the others.
     """
-    found: list[dict[str, Polygon]] = [_containing(e) for e in examples]
+    found: list[dict[str, Polygon]] = [_containing(e, CONTAINED_SHARE) for e in examples]
+    if not any(found):
+        found = [_containing(e, JUTTING_SHARE) for e in examples]
     count = Counter(label for of in found for label in of)
     if not count:
         raise InputError(f"{_named(examples[0])} lies in no polygon of its scene; draw it inside one")
@@ -233,8 +235,8 @@ def parents_of(examples: Sequence[Example]) -> list[Polygon]:
     return [of.get(label) or _nearest(e, label) for e, of in zip(examples, found, strict=True)]
 
 
-def _containing(example: Example) -> dict[str, Polygon]:
-    """The smallest polygon of each label that holds 95 % of an example."""
+def _containing(example: Example, share: float) -> dict[str, Polygon]:
+    """The smallest polygon of each label that holds a share of an example."""
     shape = shapely.Polygon(example.rectangle.ring)
     found: dict[str, Polygon] = {}
     for polygon in example.scene.polygons:
@@ -243,7 +245,7 @@ def _containing(example: Example) -> dict[str, Polygon]:
         if not (x0 <= r.x <= x1 and y0 <= r.y <= y1):
             continue
         smaller = polygon.label not in found or polygon.area < found[polygon.label].area
-        if smaller and shapely.area(shapely.intersection(polygon.shape, shape)) >= CONTAINED_SHARE * shape.area:
+        if smaller and shapely.area(shapely.intersection(polygon.shape, shape)) >= share * shape.area:
             found[polygon.label] = polygon
     return found
 

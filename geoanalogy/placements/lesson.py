@@ -174,26 +174,46 @@ class Lesson:
 
     @cached_property
     def weights(self) -> dict[str, Array]:
-        """Weight of every relation by group: the samples it counts for, times how well the positive examples agree.
+        """Weight of every relation of every example, by group, in the shape of what is kept of the group.
 
-        A relation in which the examples differ is no part of what they have in common (figure 5.11); a relation in
-        which all agree keeps its whole weight. With a single example all do.
+        The samples it counts for, times how well the counterparts around the other positive examples agree in it: the
+        better half of them, for there may be two kinds of examples. A relation in which they differ is no part of what
+        they have in common (figure 5.11), one in which they agree keeps its whole weight; the distances to one wall can
+        matter and those to another not. With a single example all keep theirs.
         """
-        found = {}
-        for key, values in (self.kept.boxes | self.kept.outlines).items():
-            counts = self._counts(key, values)
-            if len(self.positive) < 2:
-                found[key] = counts
-                continue
-            some = values[self.positive]
-            agreement = self._agreement(key, some, some)
-            utility = np.einsum(f"nmpq{_REST[values.ndim]},{_REST[values.ndim]}->nmpq", agreement, counts)
-            column = best_assignment(utility.astype(np.float64))[1]
-            index = column.reshape(*column.shape, 1, *(1,) * (agreement.ndim - 4))
-            matched = np.take_along_axis(agreement, index, axis=3)[:, :, :, 0].max(axis=2)
-            others = ~np.eye(len(some), dtype=bool)
-            found[key] = counts * matched[others].mean(axis=0)
-        return found
+        half = len(self.positive) // 2  # of the others, rounded up
+        return {
+            key: self._counts(key, values) * self.agreement(key, max(half, 1))
+            for key, values in (self.kept.boxes | self.kept.outlines).items()
+        }
+
+    def agreement(self, key: str, most: int) -> Array:
+        """How well every relation of every example agrees with its counterparts around the other positive examples.
+
+        Parameters
+        ----------
+        key : str
+            Of the group.
+        most : int
+            Only so many of the others count, for each relation those that agree best.
+
+        Returns
+        -------
+        ndarray in the shape of what is kept of the group
+            Between 0 and 1; 1 where there are no others.
+        """
+        values = (self.kept.boxes | self.kept.outlines)[key]
+        p = self.positive
+        if len(p) < 2:
+            return np.ones_like(values)
+        agreement = self._agreement(key, values, values[p])
+        rest = _REST[values.ndim]
+        utility = np.einsum(f"nmpq{rest},{rest}->nmpq", agreement, self._counts(key, values))
+        column = best_assignment(utility.astype(np.float64))[1]
+        index = column.reshape(*column.shape, 1, *(1,) * (agreement.ndim - 4))
+        matched = np.take_along_axis(agreement, index, axis=3)[:, :, :, 0]
+        matched[np.arange(len(values))[:, None] == p[None]] = -1.0
+        return np.sort(matched, axis=1)[:, -min(most, len(p) - 1) :].mean(axis=1)
 
     def _counts(self, key: str, values: Array) -> Array:
         """How many samples each relation of a group stands for, as a share of all samples."""
@@ -219,20 +239,27 @@ class Lesson:
         Returns
         -------
         dict of str to Match
-            For every group of the examples that the boxes see as well.
+            For every group of the examples; nothing agrees with a group that the boxes do not see. Outlines are left
+            out where the boxes' signature has none.
         """
         found = {}
         for key, values in (self.kept.boxes | self.kept.outlines).items():
-            there = seen.boxes.get(key, seen.outlines.get(key))
-            if there is None:
+            if key in self.kept.outlines and not seen.outlines:
                 continue
             kept = values[:, :neighbours]
+            there = seen.boxes.get(key, seen.outlines.get(key))
+            if there is None:
+                nothing = np.zeros((len(seen.boxes[PARENT_BOX]), len(values)))
+                along = nothing if key in self.kept.boxes else None
+                found[key] = Match(nothing, along, along, nothing)
+                continue
             agreement = self._agreement(key, there, kept)
-            weight = self.weights[key].astype(np.float32)
+            weight = self.weights[key][:, :neighbours].astype(np.float32)
             if key in self.kept.boxes:
-                by_axis = np.einsum("nmpqxsr,xsr->xnmpq", agreement, weight)
+                by_axis = np.einsum("nmpqxsr,mqxsr->xnmpq", agreement, weight)
                 utility = by_axis.sum(axis=0)
-                x, y = by_axis / np.maximum(weight.sum(axis=(1, 2)), 1e-9)[:, None, None, None, None]
+                whole = np.maximum(weight.sum(axis=(3, 4)).transpose(2, 0, 1), 1e-9)  # axis, example, element
+                x, y = by_axis / whole[:, None, :, None, :]
                 first = x[..., 0] * y[..., 0]
                 found[key] = Match(
                     best_assignment(utility)[0].astype(np.float64),
@@ -241,10 +268,10 @@ class Lesson:
                     first.max(axis=2).astype(np.float64),
                 )
             else:
-                utility = np.einsum("nmpqsr,sr->nmpq", agreement, weight)
+                utility = np.einsum("nmpqsr,mqsr->nmpq", agreement, weight)
                 total = best_assignment(utility)[0].astype(np.float64)
-                there_is = np.isfinite(kept[:, :, 0, 0]).sum(axis=1)
-                whole = np.maximum(weight.sum() * there_is, 1e-9)
+                there = np.isfinite(kept[:, :, 0, 0])
+                whole = np.maximum((weight.sum(axis=(2, 3)) * there).sum(axis=1), 1e-9)
                 found[key] = Match(total, None, None, np.minimum(total / whole, 1.0))
         return found
 
@@ -289,6 +316,12 @@ class Lesson:
                 parts.append(float(best.mean()) if len(p) > 1 else PRIOR_RELIABILITY * float(part[p[0], p[0]] > 0))
             found[key] = (parts[0], parts[1], parts[2])
         return found
+
+    @cached_property
+    def one_each(self) -> bool:
+        """Whether every positive example is the only one in its arrangement."""
+        where = [self.taught[i].fingerprint for i in self.positive]
+        return len(set(where)) == len(where)
 
     @cached_property
     def cohesion(self) -> float:

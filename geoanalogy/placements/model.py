@@ -19,9 +19,10 @@ from .examples import Example, Orientation, checked, nearest_directions, orienta
 from .lesson import Lesson, Taught, coverage, teach
 from .options import PlacementOptions
 from .regression import predicted_targets
-from .selection import shape_factor, without_overlaps
-from .signature import Signature
-from .survey import Survey, survey
+from .rule import Relation, learned_rule, reasons
+from .selection import rescaled, shape_factor, useful_cut, without_overlaps
+from .signature import Signature, signature
+from .survey import Survey, refined, survey
 
 Array = NDArray[np.float64]
 
@@ -42,12 +43,15 @@ class Placement:
     parent : Polygon
     novelty : float
         How far from anything that was taught, 0 to 1: where it is large, an example more would help.
+    relations : tuple of Relation
+        Why it is here: the elements it stands to as examples do, with weights, the surest first.
     """
 
     rectangle: Rectangle
     score: float
     parent: Polygon
     novelty: float
+    relations: tuple[Relation, ...] = ()
 
 
 class PlacementModel:
@@ -141,7 +145,7 @@ class PlacementModel:
             shown = self.shown_in(arrangement)
             positive, drawn = self._drawn(arrangement, shown)
             seen = survey(self.lesson, arrangement, positive, drawn)
-            score = self.scores(seen)
+            score = self.scores(seen, drawn)
             good = score >= max(least, 1e-6)
             if self.orientation.by_segment:
                 good &= self._faces(arrangement, seen.boxes)
@@ -152,20 +156,38 @@ class PlacementModel:
                 index = index[without_overlaps(seen.boxes[index], score[index], drawn, self.options.allow_overlaps)]
             else:
                 index = index[np.argsort(-score[index], kind="stable")]
-            like = np.argmax(seen.similarities[index][:, self.lesson.positive], axis=1) if len(index) else []
-            for i, j in zip(index, like, strict=True):
-                quarter = self.lesson.taught[self.lesson.positive[j]].quarter
+            boxes, similar = refined(self.lesson, arrangement, seen, index)
+            if least > 0:
+                still = without_overlaps(boxes, score[index], drawn, self.options.allow_overlaps)
+                index, boxes, similar = index[still], boxes[still], similar[still]
+            matches = self.lesson.match(
+                signature(arrangement, boxes, self.options.neighbours, self.lesson.labels, outlines=False)
+            )
+            why = reasons(self.lesson, self.label, matches)
+            for i, box, alike, relations in zip(index, boxes, similar, why, strict=True):
+                like = self.lesson.positive[np.argmax(alike[self.lesson.positive])]
                 found.append(
                     Placement(
-                        Rectangle.from_box(seen.boxes[i], frame, quarter),
+                        Rectangle.from_box(box, frame, self.lesson.taught[like].quarter),
                         float(score[i]),
                         parent,
-                        float(np.clip(1.0 - seen.similarities[i].max(), 0.0, 1.0)),
+                        float(np.clip(1.0 - alike.max(), 0.0, 1.0)),
+                        relations,
                     )
                 )
             if include_examples:
                 found += [Placement(t.rectangle, t.target, parent, 0.0) for t in shown if t.target >= max(least, 1e-6)]
         return _disjoint(found, self.options.allow_overlaps) if len(frames) > 1 and least > 0 else found
+
+    def rule(self) -> list[Relation]:
+        """The learned rule in words.
+
+        Returns
+        -------
+        list of Relation
+            The surest first.
+        """
+        return learned_rule(self.lesson, self.label)
 
     def shown_in(self, arrangement: Arrangement) -> list[Taught]:
         """The examples that were drawn in this very arrangement.
@@ -190,12 +212,17 @@ class PlacementModel:
         boxes = np.array([t.rectangle.box(arrangement.frame)[0] for t in shown]).reshape(-1, 4)
         return boxes[[t.target > 0 for t in shown]] if shown else boxes, boxes
 
-    def scores(self, seen: Survey) -> Array:
-        """Scores of surveyed candidates: certainty, times the predicted target, times the penalty on shapes (eq. 5.9).
+    def scores(self, seen: Survey, drawn: Array) -> Array:
+        """Scores of surveyed candidates.
+
+        Their certainty, times the predicted target (eq. 5.6) and the penalty on shapes (eq. 5.9), scaled so that 0.5 is
+        the score from which a result is of more use than harm in its arrangement.
 
         Parameters
         ----------
         seen : Survey
+        drawn : ndarray of shape (k, 4)
+            Examples drawn in the arrangement.
 
         Returns
         -------
@@ -211,7 +238,9 @@ class PlacementModel:
             self.options.aspect_tolerance,
             self.options.area_tolerance,
         )
-        return np.clip(seen.certainty * target * shape, 0.0, 1.0)
+        certainty = np.clip(seen.certainty * shape, 0.0, 1.0)
+        apart = without_overlaps(seen.boxes, certainty, drawn, self.options.allow_overlaps)
+        return rescaled(certainty, useful_cut(certainty[apart], lesson.one_each and not len(drawn))) * target
 
     def _faces(self, arrangement: Arrangement, boxes: Array) -> NDArray[np.bool_]:
         """Whether the segment nearest to each box is one that the arrangement's frame belongs to."""

@@ -92,3 +92,54 @@ def shape_factor(sizes: Array, taught: Array, aspect_tolerance: float, area_tole
     aspect = (change[..., 0] - change[..., 1]) / aspect_tolerance
     area = change.sum(axis=2) / area_tolerance
     return np.exp(-0.5 * (aspect**2 + area**2).min(axis=1))
+
+
+#: Least and greatest certainty at which a candidate is kept by default.
+CUTS = (0.2, 0.45)
+#: The least one where exactly one placement per parent was taught.
+CUT_OF_ONE = 0.02
+
+
+def useful_cut(certainty: Array, one: bool) -> float:
+    """The certainty from which results are of more use than harm.
+
+    Whoever checks results weighs wrong ones against missed ones. The balanced measure of both, the harmonic mean of
+    precision and recall, is largest in expectation when everything is kept whose certainty is above half of that
+    largest value: where an arrangement is clear, doubtful candidates are left out; where all is doubtful, the better
+    ones are worth showing.
+
+    Parameters
+    ----------
+    certainty : ndarray of shape (n,)
+        Of candidates that do not overlap.
+    one : bool
+        Whether there is one placement for certain: every example was the only one in its parent.
+
+    Returns
+    -------
+    float
+    """
+    falling = np.sort(certainty)[::-1]
+    whole = max(float(falling.sum()), 1.0)
+    expected = 2 * np.cumsum(falling) / (np.arange(1, len(falling) + 1) + whole)
+    least = CUT_OF_ONE if one else CUTS[0]
+    if one:
+        # One is sure to be right: the best candidate is always worth showing.
+        return float(np.clip(min(expected.max(initial=0.0) / 2, falling.max(initial=0.0)), least, CUTS[1]))
+    return float(np.clip(expected.max(initial=0.0) / 2, least, CUTS[1]))
+
+
+def rescaled(certainty: Array, cut: float) -> Array:
+    """Certainty as a score that is 0.5 at the cut: odds in multiples of the cut's.
+
+    Parameters
+    ----------
+    certainty : ndarray
+    cut : float
+        Between 0 and 1, exclusive.
+
+    Returns
+    -------
+    ndarray
+    """
+    return certainty * (1 - cut) / (certainty * (1 - cut) + cut * (1 - certainty))

@@ -35,6 +35,9 @@ OUTLINE_RELATIONS: dict[ElementType, tuple[str, ...]] = {
     ElementType.CORNER: ("corner distance", "corner ratio"),
 }
 
+#: Share by which distances must differ for one of two elements to be the nearer one.
+EQUALLY_FAR = 1e-6
+
 #: Key of the group of the parent's own box.
 PARENT_BOX = "parent's box"
 #: Prefix of the groups of boxes.
@@ -97,7 +100,7 @@ def box_coordinates(boxes: Array, elements: Array) -> Array:
     return np.stack([from_low, position - high, position - (low + high) / 2, from_low / (high - low)], axis=-1)
 
 
-def nearest(boxes: Array, elements: Array, count: int) -> tuple[Array, NDArray[np.intp]]:
+def nearest(boxes: Array, elements: Array, count: int) -> Array:
     """The elements nearest to each box, NaN where there are fewer than asked for.
 
     Parameters
@@ -108,21 +111,22 @@ def nearest(boxes: Array, elements: Array, count: int) -> tuple[Array, NDArray[n
 
     Returns
     -------
-    found : ndarray of shape (n, count, 4)
-    index : ndarray of shape (n, min(count, e)), int
+    ndarray of shape (n, count, 4)
     """
     far = distances(boxes, elements)
     most = min(count, len(elements))
-    if most == 1:
-        order = np.argmin(far, axis=1)[:, None]
-    elif most < len(elements):
-        order = np.argpartition(far, most - 1, axis=1)[:, :most]
-        order = np.take_along_axis(order, np.argsort(np.take_along_axis(far, order, 1), axis=1, kind="stable"), 1)
-    else:
-        order = np.argsort(far, axis=1, kind="stable")
     found = np.full((len(boxes), count, 4), np.nan)
-    found[:, :most] = elements[order]
-    return found, order
+    if most < len(elements):
+        order = np.argpartition(far, most, axis=1)[:, : most + 1]
+        order = np.take_along_axis(order, np.argsort(np.take_along_axis(far, order, 1), axis=1, kind="stable"), 1)
+        reach = np.take_along_axis(far, order, 1)
+        # Of two that are equally far only one would count, by an accident of order: neither does.
+        tied = reach[:, :most] >= reach[:, most:] * (1 - EQUALLY_FAR)
+        tied[:, 0] = False
+        found[:] = np.where(tied[..., None], np.nan, elements[order[:, :most]])
+    else:
+        found[:, :most] = elements[np.argsort(far, axis=1, kind="stable")]
+    return found
 
 
 def samples(boxes: Array) -> Array:
@@ -164,7 +168,7 @@ def signature(
     of_boxes = {PARENT_BOX: box_coordinates(boxes, np.broadcast_to(arrangement.parent_box, (len(boxes), 1, 4)))}
     for label, elements in arrangement.boxes.items():
         if labels is None or label in labels:
-            of_boxes[BOX + label] = box_coordinates(boxes, nearest(boxes, elements, neighbours)[0])
+            of_boxes[BOX + label] = box_coordinates(boxes, nearest(boxes, elements, neighbours))
     of_outlines: dict[str, Array] = {}
     if outlines:
         points = arrangement.unturned(samples(boxes)).reshape(-1, 2)

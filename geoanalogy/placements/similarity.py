@@ -60,9 +60,8 @@ def box_agreement(a: Array, b: Array, widths: Array, tau: float) -> Array:
     scale = np.empty((2, 1, 4), dtype=np.float32)
     scale[:, :, :3] = widths[:2, None, None]
     scale[:, :, 3] = tau * SIGMA[Kind.RATIO]
-    x = (a / scale).astype(np.float32)[:, None, :, None]
-    y = (b / scale).astype(np.float32)[None, :, None]
-    return _gaussian(x - y)
+    x, y = _apart((a / scale).astype(np.float32), (b / scale).astype(np.float32))
+    return _gaussian(x[:, None, :, None] - y[None, :, None])
 
 
 def outline_agreement(key: str, a: Array, b: Array, widths: Array, tau: float) -> Array:
@@ -83,18 +82,28 @@ def outline_agreement(key: str, a: Array, b: Array, widths: Array, tau: float) -
     """
     kinds, periods = outline_kinds(key)
     scale = np.array([widths[2] if kind is Kind.LENGTH else tau * SIGMA[kind] for kind in kinds])
-    difference = np.abs(a[:, None, :, None] - b[None, :, None])
+    x, y = _apart(a, b)
+    difference = np.abs(x[:, None, :, None] - y[None, :, None])
     for i, period in enumerate(periods):
         if np.isfinite(period):
-            difference[..., i] = np.minimum(difference[..., i], period - difference[..., i])
+            difference[..., i] = np.minimum(difference[..., i], np.abs(period - difference[..., i]))
     return _gaussian((difference / scale).astype(np.float32))
+
+
+#: A value in place of a nil element's: far from any other in units of the Gaussians, its square a finite float32.
+NIL = 1e15
+
+
+def _apart(a: Array, b: Array) -> tuple[Array, Array]:
+    """Values in which nil elements are far from everything, other nil elements included."""
+    return np.where(np.isnan(a), a.dtype.type(NIL), a), np.where(np.isnan(b), b.dtype.type(-NIL), b)
 
 
 def _gaussian(difference: NDArray[np.float32]) -> Array:
     np.multiply(difference, difference, out=difference)
     difference *= np.float32(-0.5)
     np.exp(difference, out=difference)
-    return np.nan_to_num(difference, copy=False, nan=0.0)
+    return difference
 
 
 @cache

@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .arrangement import Arrangement
-from .boxes import union_overlap
-from .calibration import GLANCE, LOOK, SETTLE
-from .candidates import crossings, most_predicted, proposals
+from .boxes import interval_overlap, union_overlap
+from .calibration import ABROAD, AT_HOME
+from .candidates import crossings, proposals, rhythm, rows_of
 from .evidence import among_evidence, single_evidence
 from .lesson import Lesson
 from .selection import thin, without_overlaps
@@ -17,15 +17,18 @@ from .signature import signature
 Array = NDArray[np.float64]
 
 #: Candidates that get a full look, and that may be added when rows and columns are continued.
-LOOKED_AT, GROWN = 400, 150
+LOOKED_AT, GROWN = 300, 150
+#: Proposals near a result that are looked at to refine it.
+VARIANTS = 10
+#: Overlap from which candidates are of the same place, and how sharply the most similar of them prevails, as a share of
+#: how far examples are from agreeing.
+SAME_PLACE, SHARPNESS = 0.6, 0.3
 #: Overlap from which two candidates are the same.
 SAME = 0.75
 #: Overlap with an example from which a candidate is that example again.
 EXAMPLE_AGAIN = 0.5
 #: Certainty from which a candidate's extents are continued across the arrangement.
 CONTINUED = 0.15
-#: Extents that are continued along each axis, at most.
-MOST_CONTINUED = 30
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,10 @@ class Survey:
         Evidence of each candidate, among the others by similarity, and by certainty.
     certainty : ndarray of shape (n,)
         How surely each is meant, 0 to 1.
+    proposed : ndarray of shape (p, 4)
+        All proposals, of which the candidates are the distinct ones.
+    promise : ndarray of shape (p,)
+        Similarity of each proposal at a glance.
     """
 
     boxes: Array
@@ -49,6 +56,8 @@ class Survey:
     among: Array
     settled: Array
     certainty: Array
+    proposed: Array
+    promise: Array
 
 
 def glance(lesson: Lesson, arrangement: Arrangement, present: Array) -> tuple[Array, Array]:
@@ -87,22 +96,23 @@ def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
     -------
     Survey
     """
-    boxes, quick = glance(lesson, arrangement, present)
-    boxes = _without_shown(boxes[thin(boxes, GLANCE.certainty(quick), SAME, LOOKED_AT)], shown)
+    judge = AT_HOME if len(present) else ABROAD
+    proposed, quick = glance(lesson, arrangement, present)
+    boxes = _without_shown(proposed[thin(proposed, judge.glance.certainty(quick), SAME, LOOKED_AT)], shown)
     similar, single = look(lesson, arrangement, boxes, present)
     among = among_evidence(boxes, similar[:, lesson.positive].max(axis=1, initial=0.0), present)
-    first = LOOK.certainty(np.hstack([single, among]))
-    more = _without_shown(_continued(boxes, first, present, lesson, arrangement), shown)
+    first = judge.look.certainty(np.hstack([single, among]))
+    more = _without_shown(_continued(boxes, first, present, arrangement), shown)
     if len(more):
         more_similar, more_single = look(lesson, arrangement, more, present)
         boxes = np.concatenate([boxes, more])
         similar = np.concatenate([similar, more_similar])
         single = np.concatenate([single, more_single])
         among = among_evidence(boxes, similar[:, lesson.positive].max(axis=1, initial=0.0), present)
-        first = LOOK.certainty(np.hstack([single, among]))
-    settled = np.hstack([LOOK.value(np.hstack([single, among]))[:, None], among_evidence(boxes, first, present)])
-    certainty = SETTLE.certainty(np.hstack([single, among, settled]))
-    return Survey(boxes, similar, single, among, settled, certainty)
+        first = judge.look.certainty(np.hstack([single, among]))
+    settled = np.hstack([judge.look.value(np.hstack([single, among]))[:, None], among_evidence(boxes, first, present)])
+    certainty = judge.settle.certainty(np.hstack([single, among, settled]))
+    return Survey(boxes, similar, single, among, settled, certainty, proposed, quick[:, :2].sum(axis=1))
 
 
 def look(lesson: Lesson, arrangement: Arrangement, boxes: Array, present: Array) -> tuple[Array, Array]:
@@ -123,11 +133,64 @@ def look(lesson: Lesson, arrangement: Arrangement, boxes: Array, present: Array)
     return lesson.similarities(matches), single_evidence(lesson, arrangement, boxes, matches, present)
 
 
+def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDArray[np.intp]) -> tuple[Array, Array]:
+    """Chosen candidates, each moved to what is most similar to the examples nearby.
+
+    The quick look tells places apart, not whether an edge follows the window's edge or its centre: of the proposals
+    that were taken for the same, the full feature vector decides. Where examples agree with each other only roughly, so
+    do the proposals that follow from them, and their mean, weighted by similarity, is nearer to what is meant than the
+    best of them; where examples agree exactly, the best alone counts.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    arrangement : Arrangement
+    seen : Survey
+    chosen : ndarray of shape (c,), int
+
+    Returns
+    -------
+    boxes : ndarray of shape (c, 4)
+    similarities : ndarray of shape (c, m)
+        To every example.
+    """
+    boxes, similar = seen.boxes[chosen].copy(), seen.similarities[chosen].copy()
+    if not len(chosen):
+        return boxes, similar
+    near = np.where(union_overlap(boxes, seen.proposed) >= SAME, seen.promise[None], -1.0)
+    best = np.argsort(-near, axis=1, kind="stable")[:, :VARIANTS]
+    row = np.repeat(np.arange(len(chosen)), best.shape[1])
+    best, valid = best.ravel(), np.take_along_axis(near, best, axis=1).ravel() >= 0
+    row, best = row[valid], best[valid]
+    variants, where = np.unique(best, return_inverse=True)
+    matches = lesson.match(signature(arrangement, seen.proposed[variants], lesson.options.neighbours, lesson.labels))
+    of_variants = lesson.similarities(matches)
+    p = lesson.positive
+
+    def quality(similarities: Array) -> Array:
+        return similarities[:, p].max(axis=1) + similarities[:, p].mean(axis=1)
+
+    # Variants from the proposals, and the candidates that were looked at, of the same place.
+    among_row, among = np.nonzero(union_overlap(boxes, seen.boxes) >= SAME_PLACE)
+    rows = np.concatenate([row, among_row])
+    options = np.concatenate([seen.proposed[best], seen.boxes[among]])
+    alike = np.concatenate([of_variants[where.ravel()], seen.similarities[among]])
+    worth = quality(alike)
+    top = np.full(len(chosen), -np.inf)
+    np.maximum.at(top, rows, worth)
+    weight = np.exp((worth - top[rows]) / (SHARPNESS * (1.0 - lesson.cohesion) + 1e-4))
+    total = np.bincount(rows, weight, len(chosen))
+    boxes = np.stack([np.bincount(rows, weight * c, len(chosen)) for c in options.T], axis=1) / total[:, None]
+    best_of = rows[worth >= top[rows]]
+    similar[best_of] = alike[worth >= top[rows]]
+    return boxes, similar
+
+
 def _without_shown(boxes: Array, shown: Array) -> Array:
     return boxes[(union_overlap(boxes, shown) <= EXAMPLE_AGAIN).all(axis=1)] if len(shown) else boxes
 
 
-def _continued(boxes: Array, certainty: Array, present: Array, lesson: Lesson, arrangement: Arrangement) -> Array:
+def _continued(boxes: Array, certainty: Array, present: Array, arrangement: Arrangement) -> Array:
     """Boxes where the rows and columns of likely candidates and of examples meet, as far as they are no candidates yet.
 
     What people place by the dozen stands in rows and columns; a place whose own surroundings say little is still where
@@ -138,12 +201,11 @@ def _continued(boxes: Array, certainty: Array, present: Array, lesson: Lesson, a
     every = np.concatenate([present, boxes[likely]])
     if len(every) < 2:
         return np.zeros((0, 4))
-    size = lesson.sizes[lesson.positive].mean(axis=0)
-    centre = (arrangement.parent_box[:2] + arrangement.parent_box[2:]) / 2
-    x, y = (
-        most_predicted(every[:, a] - centre[a], every[:, a + 2] - centre[a], 2 * 0.15 * size[a], MOST_CONTINUED)
-        for a in (0, 1)
-    )
-    crossed = crossings(x, y) + np.tile(centre, 2)
-    known = union_overlap(crossed, boxes).max(axis=1, initial=0.0) >= SAME
-    return crossed[~known][:GROWN]
+    x, y = (rows_of(every[:, [a, a + 2]]) for a in (0, 1))
+    boxes_of = crossings(np.concatenate([x, rhythm(x)]), np.concatenate([y, rhythm(y)]))
+    new = union_overlap(boxes_of, boxes).max(axis=1, initial=0.0) < SAME
+    weight = np.concatenate([np.ones(len(present)), certainty[likely]])
+    support = np.prod([(interval_overlap(boxes_of, every, a) * weight).sum(axis=1) for a in (0, 1)], axis=0)
+    inside = arrangement.share_outside(boxes_of) <= 0.5
+    grown = boxes_of[new & inside]
+    return grown[np.argsort(-support[new & inside], kind="stable")[:GROWN]]
