@@ -29,6 +29,9 @@ FOOTPRINT_WIDTH = 3.0
 #: looked for.
 STRONG = 0.15
 
+#: Values held at once while level sets are accumulated: 16 MB an array.
+MOST_VALUES = 4 << 20
+
 #: Most directions a footprint is tried in.
 MOST_DIRECTIONS = 24
 
@@ -130,7 +133,8 @@ def _accumulate(
     """The importance of grid cells for one direction, with wide level sets; shape (cells,)."""
     total = np.zeros(len(cells), dtype=np.float32)
     width = np.float32(FOOTPRINT_WIDTH * importance.width)
-    for element, a in importance.answers.items():
+    parts = ((e, part) for e, a in importance.answers.items() for part in a.blocks(MOST_VALUES // len(cells) + 1))
+    for element, a in parts:
         entries = np.zeros((len(a.target), len(cells)), dtype=np.float32)
         for k, relation in enumerate(a.relations):
             chosen = np.arange(len(a.target))

@@ -125,7 +125,7 @@ class PoseModel:
 
     def _spacing(self, targets: list[Arrangement]) -> float:
         """Distance between grid points in a parent of the example's size."""
-        area = sum(t.parent.area for t in targets)
+        area = sum(float(np.prod(t.parent.bounds[2:] - t.parent.bounds[:2])) for t in targets)
         spacing = max(float(np.sqrt(area / self.options.cells)), FINEST * self.query.width)
         # In steps, so that examples of similar rooms share the fields.
         return float(2 ** (np.floor(2 * np.log2(spacing)) / 2)) if spacing > 0 else 1.0
