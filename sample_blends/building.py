@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 import bpy
 import numpy as np
 
+import geoanalogy as ga
+
 from . import stage
-from .edits.edit import Edit
-from .edits.replay import replay, scene_of
+from .edits.edit import AnyEdit
+from .edits.recording import record, scene_of
 from .library import ASSETS
 from .library.meshes import add_asset, mesh_of
 from .library.solids import sheet
@@ -36,28 +38,34 @@ def add_plan(scene: bpy.types.Scene, polygons: list[PlanPolygon], height: float 
         holder.objects.link(drawn)
 
 
-def add_placed(scene: bpy.types.Scene, polygons: list[PlanPolygon], edits: Sequence[Edit]) -> int:
-    """Apply the edits and put an object at every pose, in the collection "Placed"; returns how many."""
+def recorded(polygons: list[PlanPolygon], edits: Sequence[AnyEdit]) -> list[ga.Element]:
+    """What the edits place on a plan."""
+    plan = scene_of(polygons)
+    return record(plan, edits).apply(plan)
+
+
+def add_elements(
+    scene: bpy.types.Scene, elements: Iterable[ga.Element], height: Callable[[ga.Element], float] = lambda _: 0.0
+) -> None:
+    """An object for every element, in the collection "Placed"; ``height`` says how high it stands."""
     holder = stage.collection(scene, PLACED)
-    count = 0
-    for _, placed, _ in replay(scene_of(polygons), edits):
-        for item in placed:
-            add_asset(ASSETS[item.asset], holder, item.pose.position, item.pose.angle, mirrored=item.pose.mirrored)
-        count += len(placed)
-    return count
+    for item in elements:
+        at, angle = item.pose.position, item.pose.angle
+        add_asset(ASSETS[item.mesh], holder, at, angle, height(item), mirrored=item.pose.mirrored, scale=item.scale)
 
 
 def run(
     build: Callable[[bpy.types.Scene], np.ndarray],
     description: str,
     polygons: list[PlanPolygon],
-    edits: Sequence[Edit],
+    edits: Sequence[AnyEdit],
+    show: Callable[[bpy.types.Scene, list[ga.Element]], None] = add_elements,
     **view: float,
 ) -> None:
     """Command line of a scene: build it in an empty file, then apply its edits, save and render as asked.
 
-    ``build`` fills the scene and returns points (n, 3) that the camera must show; ``view`` goes to
-    :func:`.stage.camera`.
+    ``build`` fills the scene and returns points (n, 3) that the camera must show, ``show`` adds what the edits have
+    placed; ``view`` goes to :func:`.stage.camera`.
     """
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--output", type=Path, help="the .blend to write")
@@ -72,7 +80,9 @@ def run(
     scene = stage.clear()
     points = build(scene)
     if arguments.edits:
-        print(f"placed {add_placed(scene, polygons, edits)} objects by {len(edits)} edits")
+        elements = recorded(polygons, edits)
+        show(scene, elements)
+        print(f"placed {len(elements)} objects by {len(edits)} edits")
     stage.settings(scene, arguments.width, arguments.height, arguments.samples)
     if arguments.plan_view:
         view = {**view, "elevation": 90.0, "lens": None}

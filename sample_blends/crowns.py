@@ -15,18 +15,22 @@ from mathutils import Matrix
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+import geoanalogy as ga
 from sample_blends import building, stage
+from sample_blends.edits.crowns import EDITS
 from sample_blends.library import ASSETS
-from sample_blends.library.meshes import add_solid
+from sample_blends.library.meshes import add_asset, add_solid
 from sample_blends.library.solids import Solid, at_height, cushion, ellipsoid, joined, loft, sheet, tube
 from sample_blends.plans import crowns as plan
 from sample_blends.plans.crowns import CROWNS, Crown
 
 GOLD_THICKNESS = 0.0016
 # Where the crowns stand: behind the sheets, so that both are seen; heights of the cushions' tops below them.
-STANDS = {"royal crown": (0.13, 0.50), "ducal crown": (0.42, 0.50)}
+STANDS = {"royal crown": (0.13, 0.53), "ducal crown": (0.42, 0.53)}
 CUSHION = 0.055
 LEVELS = 16
+# Height of the goldsmith's band's middle; below it there is room for a row of pearls.
+BAND = 0.0224
 
 
 def stand(crown: Crown) -> np.ndarray:
@@ -70,7 +74,7 @@ def _edging(crown: Crown) -> Solid:
     wire = tube(crown.rolled(rim, -GOLD_THICKNESS / 2), 0.0016, "bright gold", 8, closed=True)
     x = np.linspace(0.0, crown.length, 121)[:-1]
     rings = []
-    for y, radius in ((0.0, 0.0026), (0.0205, 0.0016)):
+    for y, radius in ((0.0, 0.0026), (0.0122, 0.0013), (0.0326, 0.0016)):
         line = np.column_stack((x, np.full(len(x), y))) + crown.origin
         rings.append(tube(crown.rolled(line, 0.0), radius, "bright gold", 8, closed=True))
     return joined((wire, *rings))
@@ -121,7 +125,7 @@ def _base_band(crown: Crown) -> Solid:
         along = (i + 0.5) * crown.length / count
         # The piece's +X is up the wall, its +Y along it; its height stands off the gold.
         x = crown.origin[0] + along - piece.vertices[:, 1] * crown.length / count / 0.02
-        y = crown.origin[1] + 0.0105 + piece.vertices[:, 0] * 0.9
+        y = crown.origin[1] + BAND + piece.vertices[:, 0] * 0.9
         pieces.append(
             Solid(crown.rolled(np.column_stack((x, y)), piece.vertices[:, 2] * 0.7), piece.faces, piece.materials)
         )
@@ -132,6 +136,18 @@ def unrolled_sheet(crown: Crown) -> Solid:
     """The outline as a thin sheet of gold on the table."""
     outline = crown.outline()
     return loft([at_height(outline, -GOLD_THICKNESS), at_height(outline, 0.0)], "brushed gold")
+
+
+def show(scene: bpy.types.Scene, elements: list[ga.Element]) -> None:
+    """Add what the edits have placed, on the sheets and on the standing crowns."""
+    building.add_elements(scene, elements)
+    holder = stage.collection(scene, "Set")
+    for element in elements:
+        crown = plan.crown(element.parent)
+        gem = add_asset(ASSETS[element.mesh], holder)
+        x, y = element.pose.position
+        mirror = Matrix.Diagonal((1.0, -1.0 if element.pose.mirrored else 1.0, 1.0, 1.0))
+        gem.matrix_world = place_on(crown, x, y, element.pose.angle) @ mirror
 
 
 def build(scene: bpy.types.Scene) -> np.ndarray:
@@ -162,4 +178,4 @@ def build(scene: bpy.types.Scene) -> np.ndarray:
 
 
 if __name__ == "__main__":
-    building.run(build, __doc__, elevation=38.0, lens=70.0, margin=0.03)
+    building.run(build, __doc__, plan.plan(), EDITS, show, elevation=38.0, lens=70.0, margin=0.03)

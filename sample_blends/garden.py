@@ -11,7 +11,9 @@ import shapely
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+import geoanalogy as ga
 from sample_blends import building, stage
+from sample_blends.edits.garden import EDITS
 from sample_blends.library.meshes import add_solid
 from sample_blends.library.regions import flat, standing
 from sample_blends.library.solids import Solid, at_height, box, cylinder, extruded, joined, lathe, loft, sheet
@@ -20,6 +22,7 @@ from sample_blends.plans.outlines import inset, rectangle
 
 EAVES = 9.0
 KERB = 0.15
+SOIL = 0.14
 
 
 def lawns() -> Solid:
@@ -38,7 +41,7 @@ def lawns() -> Solid:
 def _facade_windows() -> list[Solid]:
     """Rows of tall windows on every wall of the palace."""
     parts = []
-    ring = plan.PALACE
+    ring = plan.WALLS
     for start, end in zip(ring, np.roll(ring, -1, axis=0), strict=True):
         along = (end - start) / np.linalg.norm(end - start)
         outwards = np.array((along[1], -along[0]))
@@ -63,7 +66,7 @@ def _facade_windows() -> list[Solid]:
 
 def palace() -> Solid:
     """Two storeys about a court, a mansard roof, and a domed pavilion on the axis."""
-    ring = plan.PALACE
+    ring = plan.WALLS
     parts = [
         extruded(inset(ring, -0.25), 0.0, 0.9, "granite", 0.1),
         extruded(ring, 0.9, EAVES, "sandstone"),
@@ -151,6 +154,12 @@ def wall() -> Solid:
     return joined(parts)
 
 
+def show(scene: bpy.types.Scene, elements: list[ga.Element]) -> None:
+    """Add what the edits have placed: flowers stand on the soil of their beds."""
+    beds = {element.id for element in elements if element.label == "flower bed"}
+    building.add_elements(scene, elements, lambda element: SOIL if element.parent in beds else 0.0)
+
+
 def build(scene: bpy.types.Scene) -> np.ndarray:
     """Fill an empty scene; returns the points that a view must show."""
     holder = stage.collection(scene, "Grounds")
@@ -168,4 +177,4 @@ def build(scene: bpy.types.Scene) -> np.ndarray:
 
 
 if __name__ == "__main__":
-    building.run(build, __doc__, elevation=46.0, lens=70.0, margin=0.01)
+    building.run(build, __doc__, plan.plan(), EDITS, show, elevation=46.0, lens=70.0, margin=0.01)

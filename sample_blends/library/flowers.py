@@ -38,18 +38,18 @@ def bed_solid(outline: np.ndarray) -> Solid:
     return joined((kerb, soil))
 
 
-ROUND_BED = circle(2.2, count=40)
-RECTANGULAR_BED = centred_rectangle(5.0, 2.4)
-# A lozenge with hollow sides, as old parterres have it.
+ROUND_BED = circle(1.9, count=40)
+RECTANGULAR_BED = centred_rectangle(5.0, 2.8)
+# A rectangle with hollowed corners, as old parterres have it.
 HOLLOW_BED = np.vstack(
     [
-        arc((sx * 2.9, sy * 1.9), 1.25, start, start - 90.0, 9)
+        arc((sx * 2.9, sy * 1.6), 0.9, start, start - 90.0, 7)
         for sx, sy, start in ((1, 1, 270), (-1, 1, 0), (-1, -1, 90), (1, -1, 180))
     ]
 )
-# A piece of a ring about a round place; its hollow side looks to +X.
-RING_CENTRE = 4.276
-RING_BED = np.vstack((arc((RING_CENTRE, 0.0), 5.6, 145.0, 215.0, 21), arc((RING_CENTRE, 0.0), 3.6, 215.0, 145.0, 15)))
+# A piece of a ring about a round place of 11 metres' radius; its hollow side looks to +X.
+RING_CENTRE = 13.067
+RING_BED = np.vstack((arc((RING_CENTRE, 0.0), 14.8, 158.0, 202.0, 21), arc((RING_CENTRE, 0.0), 12.2, 202.0, 158.0, 21)))
 
 
 @asset("round flower bed", "garden", ROUND_BED, label="flower bed")
@@ -173,7 +173,7 @@ def flower_urn() -> Solid:
     return joined((urn, _clump("petal red", 6, 12, 0.32, 0.3).moved(0.0, 0.0, 0.64)))
 
 
-@asset("box hedge", "garden", rounded(centred_rectangle(1.2, 0.5), 0.08, 3), label="hedge")
+@asset("box hedge", "garden", centred_rectangle(1.2, 0.5), label="hedge")
 def low_hedge() -> Solid:
     """Piece of clipped box hedge, long along +X."""
     outline = rounded(centred_rectangle(1.2, 0.5), 0.08, 3)

@@ -49,6 +49,7 @@ def add_asset(
     angle: float = 0.0,
     z: float = 0.0,
     mirrored: bool = False,
+    scale: float = 1.0,
 ) -> bpy.types.Object:
     """An object of the asset at a pose of the plan (angle in radians), linked to a collection.
 
@@ -57,7 +58,7 @@ def add_asset(
     placed = bpy.data.objects.new(asset.name, asset_mesh(asset))
     placed.location = (*position, z)
     placed.rotation_euler = (0.0, 0.0, angle)
-    placed.scale = (1.0, -1.0 if mirrored else 1.0, 1.0)
+    placed.scale = (scale, -scale if mirrored else scale, scale)
     placed["ga_label"] = asset.label
     # The ground outline in the object's own frame, flat: x0, y0, x1, y1, …
     placed["ga_footprint"] = [float(c) for c in asset.footprint.ravel()]

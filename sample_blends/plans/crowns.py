@@ -107,24 +107,29 @@ def _leaves() -> np.ndarray:
     """Peaks like lily leaves with pointed tips, round hollows between."""
     turn = np.linspace(0.0, np.pi / 2, 9)
     across = 0.0172 * np.sin(turn) ** 0.9
-    leaf = np.column_stack((across, 0.072 + 0.028 * np.cos(turn) ** 0.9 + 0.012 * np.exp(-across / 0.005)))
+    leaf = np.column_stack((across, 0.082 + 0.028 * np.cos(turn) ** 0.9 + 0.012 * np.exp(-across / 0.005)))
     turn = np.linspace(0.0, np.pi / 2, 10)[1:]
-    hollow = np.column_stack((0.0565 - 0.0393 * np.cos(turn), 0.0725 - 0.0225 * np.sin(turn)))
+    hollow = np.column_stack((0.0565 - 0.0393 * np.cos(turn), 0.0825 - 0.0225 * np.sin(turn)))
     return _period(np.vstack((leaf, hollow)), seam=0.028)
 
 
 def _arches() -> np.ndarray:
-    """Tall pointed arches, and between each two a low round one."""
-    away = np.linspace(0.0, 0.015, 7)
-    tall = np.column_stack((away, 0.100 - 1.2 * away - 133.3 * away**2))
+    """Tall pointed arches on upright sides, and between each two a low round one."""
+    turn = np.linspace(0.0, 1.0, 9)
+    # A pointed arch is two arcs, each about a place beyond the other side.
+    radius, half, foot = 0.0465, 0.0190, 0.074
+    start = np.arccos((radius - half) / radius)
+    angle = start * (1 - turn)
+    tall = np.column_stack((radius * np.cos(angle) - (radius - half), foot + radius * np.sin(angle)))
+    tall = np.vstack((tall, (half, 0.062)))
     turn = np.linspace(0.0, np.pi / 2, 7)
-    low = np.column_stack((0.043 - 0.0125 * np.cos(turn), 0.052 + 0.0145 * np.sin(turn)))
-    return _period(np.vstack((tall, low)), seam=0.0225)
+    low = np.column_stack((0.0429 - 0.0125 * np.cos(turn), 0.062 + 0.0145 * np.sin(turn)))
+    return _period(np.vstack((tall, low)), seam=0.0246)
 
 
 CROWNS = (
-    Crown("royal crown", (0.0, 0.0), 0.090, 0.16, 0.112, 5, _leaves()),
-    Crown("ducal crown", (0.0, 0.16), 0.082, 0.10, 0.100, 6, _arches()),
+    Crown("royal crown", (0.0, 0.0), 0.090, 0.16, 0.122, 5, _leaves()),
+    Crown("ducal crown", (0.0, 0.17), 0.082, 0.10, float(_arches()[:, 1].max()), 6, _arches()),
 )
 
 

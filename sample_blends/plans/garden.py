@@ -23,7 +23,10 @@ EDGE = 52.0
 ROUND_EAST, ROUND_WEST = (41.0, 30.0), (-41.0, 30.0)
 ROUND_WAY = 10.0
 
-PALACE = np.array([(-27, 58), (-18, 58), (-18, 66), (18, 66), (18, 58), (27, 58), (27, 78), (-27, 78)], dtype=float)
+# The walls of the palace, and how far its portico and the stairs before it reach into the court.
+WALLS = np.array([(-27, 58), (-18, 58), (-18, 66), (18, 66), (18, 58), (27, 58), (27, 78), (-27, 78)], dtype=float)
+_STAIRS = np.array([(-5.6, 66.0), (-5.6, 61.2), (5.6, 61.2), (5.6, 66.0)])
+PALACE = np.vstack((WALLS[:3], _STAIRS, WALLS[3:]))
 
 
 def _quarter(low: float, high: float) -> np.ndarray:
@@ -57,7 +60,7 @@ def parcels() -> list[PlanPolygon]:
     north = _quarter(CENTRE[1] + CROSS, TERRACE)
     south = _quarter(CENTRE[1] - CROSS, 6.0)
     strip = rounded(rectangle(5.5, -3.0, 23.0, 3.0), 1.2, 4)
-    court = np.array([(4.5, 53.5), (15.0, 53.5), (15.0, 60.0), (12.0, 63.5), (4.5, 63.5)])
+    court = np.array([(7.0, 53.5), (15.8, 53.5), (15.8, 60.3), (13.0, 63.5), (7.0, 63.5)])
     side = rectangle(SIDE[0], SOUTH, SIDE[1], TERRACE)
     gardens = {
         "garden north-east": north,
@@ -91,8 +94,8 @@ def parcels() -> list[PlanPolygon]:
         "way side west": mirrored(side),
         "way round east": circle(ROUND_WAY, ROUND_EAST, 72),
         "way round west": circle(ROUND_WAY, ROUND_WEST, 72),
-        "way terrace": np.array(
-            [(-31, 50), (31, 50), (31, 58), (18, 58), (18, 66), (-18, 66), (-18, 58), (-31, 58)], dtype=float
+        "way terrace": np.vstack(
+            ((-31, 50), (31, 50), (31, 58), (18, 58), (18, 66), _STAIRS[::-1], (-18, 66), (-18, 58), (-31, 58))
         ),
     }
     made = [PlanPolygon("palace", "palace", PALACE)]
