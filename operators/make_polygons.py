@@ -19,6 +19,9 @@ class GEOANALOGY_OT_make_polygons(Edit, bpy.types.Operator):
     def poll(cls, context):
         return needs_object_mode(cls, context)
 
+    def invoke(self, context, event):
+        return context.window_manager.invoke_props_dialog(self)
+
     def edit(self, context):
         """Make the polygons."""
         return f"{len(polygons_from_lines(context, context.selected_objects, self.label))} polygons"

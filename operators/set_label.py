@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import EnumProperty, StringProperty
 
+from ..geoanalogy.blender import names
 from ..geoanalogy.blender.plan_making import set_label
 from .edit import Edit, needs_object_mode
 
@@ -25,6 +26,11 @@ class GEOANALOGY_OT_set_label(Edit, bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         return needs_object_mode(cls, context)
+
+    def invoke(self, context, event):
+        item = context.active_object
+        self.label = "" if item is None else str(item.get(names.LABEL, ""))
+        return context.window_manager.invoke_props_dialog(self)
 
     def edit(self, context):
         """Write the label."""

@@ -2,7 +2,6 @@
 
 import bpy
 
-from ..geoanalogy.blender import names
 from .base import SidebarPanel
 
 
@@ -15,13 +14,10 @@ class GEOANALOGY_PT_plan(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context):
         layout = self.layout
-        layout.prop(context.scene.geoanalogy, "plan", text="")
+        layout.prop(context.scene.geoanalogy, "plan", text="Plan")
         column = layout.column(align=True)
         column.operator("geoanalogy.import_plan", icon="IMPORT")
         column.operator("geoanalogy.make_polygons", icon="MESH_DATA")
-        item = context.active_object
-        if item is not None and names.LABEL in item:
-            layout.prop(item, f'["{names.LABEL}"]', text="Label")
         row = layout.row(align=True)
         row.operator("geoanalogy.set_label", text="Label Selected", icon="BOOKMARKS").target = "OBJECTS"
         row.operator("geoanalogy.set_label", text="Collection", icon="OUTLINER_COLLECTION").target = "COLLECTION"

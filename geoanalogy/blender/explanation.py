@@ -15,8 +15,8 @@ from . import names
 from .refresh import proposed_by, stored_layout
 from .tree_store import engine_node, require_operations
 
-#: Relations that are listed; the rest is one line.
-MOST_LISTED = 8
+#: Relations that are listed, and the least part of the importance that is; the rest is one line.
+MOST_LISTED, LEAST_LISTED = 8, 0.01
 
 
 @dataclass(frozen=True)
@@ -112,6 +112,6 @@ def _reasons(model: PoseModel, e: Element, scene) -> tuple[Reason, ...]:
         text = f"{share.relation.replace('_', ' ')} · {of or share.target}"
         sums[text] = sums.get(text, 0.0) + share.weight
     ranked = sorted(sums.items(), key=lambda pair: -pair[1])
-    reasons = [Reason(text, weight) for text, weight in ranked[:MOST_LISTED]]
-    rest = sum(weight for _, weight in ranked[MOST_LISTED:])
-    return tuple([*reasons, Reason("others", rest)] if rest > 0 else reasons)
+    reasons = [Reason(text, weight) for text, weight in ranked[:MOST_LISTED] if weight >= LEAST_LISTED]
+    rest = sum(sums.values()) - sum(reason.share for reason in reasons)
+    return tuple([*reasons, Reason("others", rest)] if rest >= LEAST_LISTED else reasons)

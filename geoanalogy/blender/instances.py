@@ -3,7 +3,7 @@
 Only what carries the name of a node and a key is ever deleted; whatever else a user puts into these collections stays.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import bpy
 import numpy as np
@@ -71,7 +71,13 @@ def results_in(holder: bpy.types.Collection) -> list[bpy.types.Object]:
 
 
 def write_results(
-    scene: bpy.types.Scene, node: str, elements: Sequence[Element], placed: Iterable[Placed], plane: Plane
+    scene: bpy.types.Scene,
+    node: str,
+    elements: Sequence[Element],
+    placed: Iterable[Placed],
+    plane: Plane,
+    *,
+    unmoved: bool = False,
 ) -> int:
     """Show the results of one operation in place of those shown before.
 
@@ -85,6 +91,9 @@ def write_results(
     placed : iterable of Placed
         The objects by their names in the operation; elements of others are left out.
     plane : Plane
+    unmoved : bool
+        Whether results of the same key stand where they did: those at the beginning that stay the same are left alone,
+        and a threshold that is moved only takes from the end, or adds there.
 
     Returns
     -------
@@ -97,22 +106,35 @@ def write_results(
         holder = bpy.data.collections.new(node)
         holder[names.NODE] = node
         outer.children.link(holder)
-    delete_results(holder)
     by_mesh = {one.mesh: one for one in placed if one.item is not None}
     there = {one.mesh for one in by_mesh.values() if scene.objects.get(one.item.name) == one.item}
-    count = 0
-    for e in elements:
-        one = by_mesh.get(e.mesh)
-        if one is None or (e.example and e.mesh in there):
-            continue
-        count += 1
+    children = _children_of([one.item for one in by_mesh.values()])
+    shown = [e for e in elements if e.mesh in by_mesh and not (e.example and e.mesh in there)]
+    left = _leave(holder, [e.key for e in shown]) if unmoved else 0
+    if not left:
+        delete_results(holder)
+    for count, e in enumerate(shown[left:], left + 1):
+        one = by_mesh[e.mesh]
         made = one.item.copy()
         made.name = f"{node} {count:03d}"
         made[names.NODE], made[names.KEY] = node, e.key
         _stand(made, e, one.rest, plane)
         holder.objects.link(made)
-        _copy_children(one.item, made, holder, e)
-    return count
+        _copy_children(one.item, made, holder, children)
+    return len(shown)
+
+
+def _leave(holder: bpy.types.Collection, keys: Sequence[str]) -> int:
+    """Delete results from the first on that is not among these keys in order; how many are left."""
+    every = results_in(holder)
+    # Children follow on the result that they belong to.
+    starts = [i for i, item in enumerate(every) if item.parent is None]
+    same = 0
+    while same < min(len(starts), len(keys)) and every[starts[same]][names.KEY] == keys[same]:
+        same += 1
+    if same < len(starts):
+        bpy.data.batch_remove(every[starts[same] :])
+    return same
 
 
 def _stand(made: bpy.types.Object, e: Element, rest: Array, plane: Plane) -> None:
@@ -138,15 +160,32 @@ def _stand(made: bpy.types.Object, e: Element, rest: Array, plane: Plane) -> Non
     made.scale = e.scale * scale
 
 
-def _copy_children(example: bpy.types.Object, made: bpy.types.Object, holder: bpy.types.Collection, e: Element) -> None:
-    for child in example.children:
-        if names.KEY in child:
-            continue
+def _children_of(items: Sequence[bpy.types.Object]) -> dict[str, list[bpy.types.Object]]:
+    """The children of objects and of their children, by their parents' names.
+
+    Blender looks through all objects of the file for the children of one, so each is asked once.
+    """
+    found: dict[str, list[bpy.types.Object]] = {}
+    waiting = list(items)
+    while waiting:
+        item = waiting.pop()
+        found[item.name] = [child for child in item.children if names.KEY not in child]
+        waiting += found[item.name]
+    return found
+
+
+def _copy_children(
+    example: bpy.types.Object,
+    made: bpy.types.Object,
+    holder: bpy.types.Collection,
+    children: Mapping[str, list[bpy.types.Object]],
+) -> None:
+    for child in children[example.name]:
         copy = child.copy()
         copy.parent = made
-        copy[names.NODE], copy[names.KEY] = e.node, e.key
+        copy[names.NODE], copy[names.KEY] = made[names.NODE], made[names.KEY]
         holder.objects.link(copy)
-        _copy_children(child, copy, holder, e)
+        _copy_children(child, copy, holder, children)
 
 
 def delete_results(holder: bpy.types.Collection) -> None:

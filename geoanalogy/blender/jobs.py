@@ -5,8 +5,9 @@ from typing import Any
 
 from ..progress import Stepper
 
-#: Seconds that a slice takes at the most, but for a single long step: the window goes on drawing.
-SLICE = 0.02
+#: Least and most seconds that a slice takes, but for a single long step. Between them, as long as the window took to
+#: draw since the last one: a slow display takes no more than half of the time.
+SHORTEST, LONGEST = 0.02, 0.3
 
 
 class Job:
@@ -33,19 +34,23 @@ class Job:
         self.fraction, self.text = 0.0, ""
         self.finished = False
         self.result: Any = None
+        self._paused = perf_counter()
 
-    def advance(self, seconds: float = SLICE) -> None:
+    def advance(self, seconds: float | None = None) -> None:
         """Take steps until the time is up or the work is done.
 
         Parameters
         ----------
-        seconds : float
+        seconds : float, optional
+            None: as long as nothing was done since the last slice, within `SHORTEST` and `LONGEST`.
 
         Raises
         ------
         InputError
             What a step raised; the work is over then.
         """
+        if seconds is None:
+            seconds = min(max(perf_counter() - self._paused, SHORTEST), LONGEST)
         until = perf_counter() + seconds
         while not self.finished:
             try:
@@ -53,7 +58,8 @@ class Job:
             except StopIteration as end:
                 self.finished, self.result = True, end.value
             if perf_counter() >= until:
-                return
+                break
+        self._paused = perf_counter()
 
     def cancel(self) -> None:
         """Stop between two steps; nothing has been written."""

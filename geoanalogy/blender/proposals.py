@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterable
+from functools import lru_cache
 
 from ..operations.element import Element
 from ..poses.pose import Pose
@@ -27,6 +28,7 @@ def write_proposals(elements: Iterable[Element]) -> str:
     return json.dumps({"kinds": list(kinds), "elements": rows}, ensure_ascii=False, allow_nan=False)
 
 
+@lru_cache(maxsize=256)
 def read_proposals(text: str, node: str) -> tuple[Element, ...]:
     """The inverse of `write_proposals`.
 
@@ -40,6 +42,7 @@ def read_proposals(text: str, node: str) -> tuple[Element, ...]:
     Returns
     -------
     tuple of Element
+        The same ones for the same text: they keep the polygons that were derived from them.
     """
     if not text:
         return ()

@@ -137,7 +137,7 @@ def stored_layout(scene: bpy.types.Scene, node: bpy.types.Node) -> tuple[Ground,
     return ground, stored_layouts(node.id_data, ground)[node.name]
 
 
-def show(scene: bpy.types.Scene, node: bpy.types.Node) -> int:
+def show(scene: bpy.types.Scene, node: bpy.types.Node, *, unmoved: bool = False) -> int:
     """Show what a node's settings and decisions let pass of what it has proposed.
 
     Parameters
@@ -145,6 +145,8 @@ def show(scene: bpy.types.Scene, node: bpy.types.Node) -> int:
     scene : bpy.types.Scene
     node : bpy.types.Node
         Of the scene's tree.
+    unmoved : bool
+        Whether only the selection has changed, not where results stand.
 
     Returns
     -------
@@ -159,7 +161,7 @@ def show(scene: bpy.types.Scene, node: bpy.types.Node) -> int:
     ground, incoming = stored_layout(scene, node)
     layout = decided(engine_node(node), proposed_by(node), incoming)
     own = [e for e in layout.elements if e.node == node.name]
-    node[names.COUNT] = write_results(scene, node.name, own, placed_by(node), ground.plane)
+    node[names.COUNT] = write_results(scene, node.name, own, placed_by(node), ground.plane, unmoved=unmoved)
     return node[names.COUNT]
 
 
@@ -169,7 +171,7 @@ def _show_sifted(node: bpy.types.Node) -> None:
         return
     node.pop(names.PROBLEM, None)
     try:
-        show(scene, node)
+        show(scene, node, unmoved=True)
     except InputError as error:
         node[names.PROBLEM] = str(error)
 

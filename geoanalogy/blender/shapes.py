@@ -104,7 +104,7 @@ def _rings_of_mesh(mesh: bpy.types.Mesh, drawn: bpy.types.Object, name: str) -> 
     first = np.concatenate([[0], np.cumsum(total)[:-1]])
     following = np.arange(corners) + 1
     following[first + total - 1] = first
-    each = drawn.get(names.FACES, "joined") == "each"
+    each = faces == 1 or drawn.get(names.FACES, "joined") == "each"
     region = np.arange(faces) if each else joined_faces(face, edge.astype(np.intp), faces)
     outer = np.ones(corners, dtype=bool) if each else np.bincount(edge, minlength=len(mesh.edges))[edge] == 1
     labels = [slot.material.get(names.LABEL, "") if slot.material else "" for slot in drawn.material_slots]
