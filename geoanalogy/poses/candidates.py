@@ -110,15 +110,15 @@ def _of_footprint(importance: Importance, fields: Fields, blocked: NDArray[np.bo
         sheet = np.full(len(grid), -1.0, dtype=np.float32)
         sheet[free] = score
         sheet = sheet.reshape(grid.rows, grid.columns)[np.ix_(rows, columns)]
-        best = _maxima(sheet, 1)[:MAXIMA]
+        best = _maxima(sheet, 1)[: max(MAXIMA, importance.query.options.candidates)]
         r, k = np.divmod(best, len(columns))
         position.append(grid.points[rows[r] * grid.columns + columns[k]])
         angle.append(np.full(len(best), direction))
         strength.append(sheet.ravel()[best])
-    if not position:
+    found = np.concatenate(strength) if strength else np.zeros(0, dtype=np.float32)
+    if not len(found):
         return Candidates(np.zeros((0, 2)), np.zeros(0))
-    found = np.concatenate(strength)
-    order = np.argsort(-found, kind="stable")[: 2 * MAXIMA]
+    order = np.argsort(-found, kind="stable")[: 2 * max(MAXIMA, importance.query.options.candidates)]
     order = order[found[order] >= WORTH_REFINING * found[order[0]]]
     return Candidates(np.concatenate(position)[order], np.concatenate(angle)[order])
 

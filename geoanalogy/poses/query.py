@@ -113,8 +113,14 @@ class Query:
         self.samples = footprint_samples(footprint if self.rigid else None)
         self.width = options.level_set_width * arrangement.parent.size
         seen = Observation(arrangement.elements, pose.to_scene(self.samples))
+        self._context = self.rigid
         self.questions = {t: q for t in ElementType if (q := self._question(t, seen)) is not None}
         self.total = float(sum(q.weight.sum() for q in self.questions.values()))
+        if not self.total and not self._context:
+            # In the middle of a circle the importance of section 4.4 is 0 for everything: only the context is left.
+            self._context = True
+            self.questions = {t: q for t in ElementType if (q := self._question(t, seen)) is not None}
+            self.total = float(sum(q.weight.sum() for q in self.questions.values()))
 
     def _question(self, element: ElementType, seen: Observation) -> Question | None:
         relations = tuple(r for r in map(RELATIONS.__getitem__, self.options.relations) if r.element is element)
@@ -148,11 +154,13 @@ class Query:
         # A member as wide as the room would else be attended to across all of it.
         outside = np.minimum(enclosing, 2 * self.arrangement.parent.enclosing_radius)
         radius = np.where(seen.inside[polygon], inscribed[polygon, None], outside[polygon, None])
-        if not self.rigid:
-            return np.maximum(0.0, 1 - away / radius)
-        importance = np.maximum(0.0, 1 - away / (radius * FOOTPRINT_REACH))
-        across = 2 * self.arrangement.parent.enclosing_radius
-        importance[:, 0] += CONTEXT * np.maximum(0.0, 1 - away[:, 0] / across)
+        importance = np.maximum(0.0, 1 - away / (radius * (FOOTPRINT_REACH if self.rigid else 1.0)))
+        if self._context:
+            across = 2 * self.arrangement.parent.enclosing_radius
+            # Of many alike (hedges, chairs) none says where in the room a place is.
+            labels = [p.label for p in seen.elements.polygons[1:]]
+            alike = np.array([1, *(labels.count(label) for label in labels)])[polygon]
+            importance[:, 0] += CONTEXT / alike * np.maximum(0.0, 1 - away[:, 0] / across)
         return importance
 
 
