@@ -24,7 +24,7 @@ import geoanalogy as ga
 from geoanalogy.placements import calibration, survey
 from geoanalogy.placements.arrangement import arrangement_of
 from geoanalogy.placements.boxes import union_overlap
-from geoanalogy.placements.evidence import AMONG, SINGLE, among_evidence
+from geoanalogy.placements.evidence import AMONG, SINGLE
 from geoanalogy.placements.selection import rescaled, useful_cut, without_overlaps
 
 TABLE = pathlib.Path(__file__).resolve().parent.parent / "geoanalogy" / "placements" / "calibration_table.py"
@@ -177,7 +177,7 @@ def drawn_street(rng):
     size, step = rng.uniform((0.8, 1.2), (1.6, 2.0)), rng.uniform((2.4, 2.8), (3.6, 3.6))
     polygons, placed, x = [], defaultdict(list), 0.0
     gap, thick, over = rng.uniform(0.0, 0.4), rng.uniform(0.1, 0.4), rng.choice([0.0, rng.uniform(0.05, 0.3)])
-    for k in range(rng.integers(2, 4)):
+    for _ in range(rng.integers(2, 4)):
         columns, rows = rng.integers(2, 7), rng.integers(1, 6)
         wide = size * (rng.uniform(0.7, 1.5) if rng.random() < 0.4 else 1.0, 1.0)
         width, height = columns * step[0] + 1, rows * step[1] + 3.2
@@ -208,7 +208,7 @@ def drawn_cases(rng, count):
         others = [
             o for o in ("window", "sill", "lintel", "blind") if o != label and (o == "window" or rng.random() < 0.4)
         ]
-        boxes = placed[label]
+        boxes = placed.get(label, np.zeros((0, 4)))
         everything = [*polygons, *((0, o, b) for o in others for b in placed[o])]
         scene = ga.Scene([ga.Polygon(ring(b), o, orientation=0.0) for _, o, b in everything])
         k = int(rng.choice([1, 2, 3, 4, 6]))
@@ -244,6 +244,7 @@ def collected(cases):
                     "quick": quick[some],
                     "quick_iou": quick_iou[some],
                     "boxes": seen.boxes,
+                    "company": seen.company,
                     "single": seen.single,
                     "among": seen.among,
                     "present": drawn,
@@ -315,7 +316,10 @@ def settle_evidence(part, look):
     """Evidence of the last model: what the second one makes of the candidates among each other."""
     first = np.hstack([part["single"], part["among"]])
     part["settled"] = np.hstack(
-        [look.value(first)[:, None], among_evidence(part["boxes"], look.certainty(first), part["present"])]
+        [
+            look.value(first)[:, None],
+            part["company"].evidence(look.certainty(first)),
+        ]
     )
 
 

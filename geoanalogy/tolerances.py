@@ -78,7 +78,7 @@ NOISY_ALTERNATION = 0.5
 NOISY_SPREAD = math.radians(12.5)
 
 #: Largest noise, as a share of the square root of the area: beyond it nothing can be told.
-LARGEST_NOISE = 0.06
+LARGEST_NOISE = 0.045
 
 #: What a straight piece and an arc cost, in logarithms of the number of points. A piece has two numbers, or three, and
 #: an end; the Bayesian information criterion would say 3 and 4. Outlines are straight more often than not.
@@ -150,9 +150,9 @@ SAMPLE_TURN = math.radians(20.0)
 #: Samples of a drawing at about which their spacing grows: twice as many take four times as long to compare.
 MOST_SAMPLES = 2_500
 
-#: Share of an example's area that its parent must hold where no polygon holds more of any example: a balcony drawn
-#: across the edge of the only facade.
-JUTTING_SHARE = 0.5
+#: Share of its area that the parent must hold of a single one of several examples, and of all on average: a building
+#: that juts out over the edge of its plot is on that plot all the same.
+JUTTING_SHARE, JUTTING_MEAN = 0.7, 0.9
 
 #: Directions in which the outermost points stand for all in the smallest circle round a drawing: half a degree
 #: apart, which is wrong by 1 - cos(0.25 degrees) = 1e-5 of it.

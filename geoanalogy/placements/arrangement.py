@@ -19,7 +19,7 @@ from .boxes import gaps_between
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Arrangement:
     """A parent polygon and the polygons below it, as boxes in a frame.
 

@@ -11,7 +11,8 @@ ABREAST = 0.5
 
 def areas(boxes: Array) -> Array:
     """Area of each box, shape (n,)."""
-    return (boxes[..., 2] - boxes[..., 0]) * (boxes[..., 3] - boxes[..., 1])
+    size = boxes[..., 2:] - boxes[..., :2]
+    return np.prod(size, axis=-1)
 
 
 def shared_areas(a: Array, b: Array) -> Array:

@@ -22,6 +22,7 @@ SETTLED = ("first impression", *(f"{name} by certainty" for name in AMONG))
 AGAINST = frozenset(
     (
         "shortfall",
+        "broken habit",
         "missed anchor",
         "missed along x",
         "missed along y",

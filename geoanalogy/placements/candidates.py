@@ -96,7 +96,8 @@ def predicted(lesson: Lesson, arrangement: Arrangement) -> Array:
         known = np.isfinite(values[:, 0, 0, 0])
         if elements is None or not known.any():
             continue
-        values, weights = values[known], lesson.weights[BOX + label][lesson.positive, 0][known]
+        weights = lesson.weights[BOX + label][lesson.positive, 0][known]
+        values, weights = _with_middle(values[known]), np.concatenate([weights, weights.mean(axis=0, keepdims=True)])
         x, y = (
             np.where(
                 agreed_ways(weights[:, axis])[:, None, :, None],
@@ -108,6 +109,11 @@ def predicted(lesson: Lesson, arrangement: Arrangement) -> Array:
         boxes = crossings(x, y)
         found.append(boxes[np.isfinite(boxes).all(axis=1)])
     return np.concatenate(found)
+
+
+def _with_middle(values: Array) -> Array:
+    """Coordinates of the examples and their medians: where examples scatter, their middle is the best guess."""
+    return np.concatenate([values, np.median(values, axis=0, keepdims=True)])
 
 
 def agreed_ways(weights: Array) -> NDArray[np.bool_]:
@@ -134,7 +140,7 @@ def _from_parent(lesson: Lesson, arrangement: Arrangement) -> Array:
     Which of them is meant is for the score to say: relations to segments and corners are assigned one to one, whatever
     side they are on (section 5.3).
     """
-    values = lesson.kept.boxes[PARENT_BOX][lesson.positive, 0]
+    values = _with_middle(lesson.kept.boxes[PARENT_BOX][lesson.positive, 0])
     low, high = arrangement.parent_box[None, :2], arrangement.parent_box[None, 2:]
     flipped = _flipped(values)
     found = []

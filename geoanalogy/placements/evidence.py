@@ -4,10 +4,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .arrangement import Arrangement
-from .boxes import interval_overlap, overlap
+from .boxes import distances, interval_overlap, overlap
 from .candidates import rhythm
 from .lesson import Lesson, Match, coverage
-from .signature import PARENT_BOX
+from .signature import BOX, PARENT_BOX, Signature
 
 Array = NDArray[np.float64]
 
@@ -17,6 +17,8 @@ SINGLE = (
     "mean similarity",
     "against cohesion",  # similarity over what examples have with each other
     "shortfall",  # how far it is below that, against how far that is below 1
+    "habit",  # how well its edges keep to what they keep to most closely among the examples
+    "broken habit",  # by how much the worst edge does not
     "best anchor",  # agreement with the group of elements that agrees best, times its reliability
     "anchors",  # mean agreement of all groups, by reliability
     "sure anchors",  # the same by squared reliability
@@ -58,6 +60,8 @@ SLACK = 0.1
 AMONG = (
     "relative",  # similarity over the largest one
     "local",  # similarity over the largest one among those it overlaps
+    "at anchor",  # similarity over the largest one among those with the same nearest element of the surest label
+    "at second anchor",
     "row support",  # similarity of the best candidates in its row
     "column support",
 )
@@ -67,6 +71,7 @@ def single_evidence(
     lesson: Lesson,
     arrangement: Arrangement,
     boxes: Array,
+    seen: Signature,
     matches: dict[str, Match],
     present: Array,
 ) -> Array:
@@ -77,6 +82,8 @@ def single_evidence(
     lesson : Lesson
     arrangement : Arrangement
     boxes : ndarray of shape (n, 4)
+    seen : Signature
+        Of the boxes.
     matches : dict of str to Match
         Of the boxes with all examples.
     present : ndarray of shape (m, 4)
@@ -92,7 +99,7 @@ def single_evidence(
     keys = [key for key in matches if key != PARENT_BOX]
     reliable = np.array([lesson.reliability[key] for key in keys]).reshape(-1, 3)
     joint = np.array([matches[key].joint[:, p].max(axis=1) for key in keys]).reshape(-1, n).T
-    of_boxes = [i for i, key in enumerate(keys) if matches[key].along_x is not None]
+    of_boxes = [i for i, key in enumerate(keys) if matches[key].of_boxes]
     x, y = (
         np.array([getattr(matches[keys[i]], name)[:, p].max(axis=1) for i in of_boxes]).reshape(-1, n).T
         for name in ("along_x", "along_y")
@@ -100,6 +107,7 @@ def single_evidence(
     rx, ry, rj = reliable[of_boxes, 0], reliable[of_boxes, 1], reliable[:, 2]
     parent = matches[PARENT_BOX]
     in_parent = lesson.reliability[PARENT_BOX]
+    habit = lesson.habitual(seen)
     size = np.log(boxes[:, 2:] - boxes[:, :2])
     taught_size = np.log(lesson.sizes[p])
     covered, uncovered, touched = _overlaps(lesson, arrangement, boxes)
@@ -113,6 +121,8 @@ def single_evidence(
         "mean similarity": similarity.mean(axis=1),
         "against cohesion": np.minimum(best / max(lesson.cohesion, 0.05), 2.0),
         "shortfall": np.clip((lesson.cohesion - best) / (1.0 - lesson.cohesion + SLACK), 0.0, 3.0),
+        "habit": habit.mean(axis=(1, 2)),
+        "broken habit": 1.0 - habit.min(axis=(1, 2), initial=1.0),
         "best anchor": (joint * rj).max(axis=1, initial=0.0),
         "anchors": joint @ rj / max(rj.sum(), 1e-9),
         "sure anchors": joint @ rj**2 / max((rj**2).sum(), 1e-9),
@@ -188,30 +198,76 @@ EXCLUDING = 0.1
 SUPPORTERS = 4
 
 
-def among_evidence(boxes: Array, strength: Array, present: Array) -> Array:
-    """The figures of `AMONG`, with any strength in place of the similarity.
+def anchors_of(lesson: Lesson, arrangement: Arrangement, boxes: Array) -> NDArray[np.intp]:
+    """The nearest element of the two labels that examples have the surest relations to.
+
+    What is drawn once at every window is drawn once at this window too: the better of two candidates there counts.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    arrangement : Arrangement
+    boxes : ndarray of shape (n, 4)
+
+    Returns
+    -------
+    ndarray of shape (2, n), int
+        Index of the element; the boxes' own numbers, so that nobody shares them, where there is no such label.
+    """
+    sure = sorted(
+        (label for label in arrangement.drawn if BOX + label in lesson.reliability),
+        key=lambda label: (-round(lesson.reliability[BOX + label][2], 9), label),
+    )[:2]
+    found = [np.argmin(distances(boxes, arrangement.drawn[label]), axis=1) for label in sure]
+    return np.array([*found, *[np.arange(len(boxes))] * (2 - len(found))])
+
+
+class Company:
+    """Candidates among each other: which exclude each other, which stand in line, which belong to one element.
 
     Parameters
     ----------
     boxes : ndarray of shape (n, 4)
-    strength : ndarray of shape (n,)
-        How good each candidate is by itself, not negative.
     present : ndarray of shape (m, 4)
-        Examples drawn in this arrangement; they are as strong as the best.
-
-    Returns
-    -------
-    ndarray of shape (n, len(AMONG))
+        Examples drawn in this arrangement; they are as strong as the best candidate.
+    anchors : ndarray of shape (2, n + m), int
+        Of the boxes and the examples, see `anchors_of`.
     """
-    top = max(float(strength.max(initial=0.0)), 1e-9)
-    apart = overlap(boxes, boxes) <= EXCLUDING
-    local = strength / np.maximum(np.where(apart, 0.0, strength[None]).max(axis=1), 1e-9)
-    supports = []
-    every = np.concatenate([boxes, present])
-    force = np.concatenate([strength, np.full(len(present), top)])
-    free = np.hstack([apart, overlap(boxes, present) <= EXCLUDING]) if len(present) else apart
-    for axis in (1, 0):
-        aligned = (interval_overlap(boxes, every, axis) >= ALIGNED) & free
-        best = np.sort(np.where(aligned, force[None], 0.0), axis=1)[:, ::-1][:, :SUPPORTERS]
-        supports.append(best.sum(axis=1) / SUPPORTERS / top)
-    return np.stack([strength / top, local, *supports], axis=1)
+
+    def __init__(self, boxes: Array, present: Array, anchors: NDArray[np.intp]) -> None:
+        every = np.concatenate([boxes, present])
+        free = overlap(boxes, every) <= EXCLUDING
+        self.shown = len(present)
+        self.anchors = anchors
+        self.rivals = ~free[:, : len(boxes)]
+        self.in_line = [(interval_overlap(boxes, every, axis) >= ALIGNED) & free for axis in (1, 0)]
+
+    def evidence(self, strength: Array) -> Array:
+        """The figures of `AMONG`, with any strength in place of the similarity.
+
+        Parameters
+        ----------
+        strength : ndarray of shape (n,)
+            How good each candidate is by itself, not negative.
+
+        Returns
+        -------
+        ndarray of shape (n, len(AMONG))
+        """
+        n = len(strength)
+        top = max(float(strength.max(initial=0.0)), 1e-9)
+        force = np.concatenate([strength, np.full(self.shown, top)])
+        local = strength / np.maximum((self.rivals * strength).max(axis=1, initial=0.0), 1e-9)
+        at_anchors = []
+        for index in self.anchors:
+            strongest = np.zeros(index.max(initial=0) + 1)
+            np.maximum.at(strongest, index, force)
+            at_anchors.append(strength / np.maximum(strongest[index[:n]], 1e-9))
+        # The strongest columns first: the best supporters are the first few that stand in line.
+        order = np.argsort(-force, kind="stable")
+        supports = []
+        for aligned in self.in_line:
+            sorted_line = aligned[:, order]
+            counted = sorted_line & (np.cumsum(sorted_line, axis=1, dtype=np.int32) <= SUPPORTERS)
+            supports.append(counted @ force[order] / SUPPORTERS / top)
+        return np.stack([strength / top, local, *at_anchors, *supports], axis=1)

@@ -1,6 +1,5 @@
 """The examples a user gives: their parents and the directions of their frames (sections 5.2 and 5.6)."""
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -15,7 +14,7 @@ from ..geometry.rectangle import Rectangle
 from ..geometry.scene import Scene
 from ..relations.elements import Elements
 from ..relations.observation import Observation
-from ..tolerances import CONTAINED_SHARE, JUTTING_SHARE, NEAR_PARENT, PARALLEL_ANGLE, SAME_RECTANGLE
+from ..tolerances import CONTAINED_SHARE, JUTTING_MEAN, JUTTING_SHARE, NEAR_PARENT, PARALLEL_ANGLE, SAME_RECTANGLE
 
 Array = NDArray[np.float64]
 
@@ -204,8 +203,9 @@ def _same(a: Rectangle, b: Rectangle) -> bool:
 def parents_of(examples: Sequence[Example]) -> list[Polygon]:
     """The parent of every example: polygons of one label, the smallest of which one contains each example.
 
-    Where no label contains them all (a window beyond the edge of a photograph), the one that contains most does, and
-    the others belong to the polygon of that label that is nearest to them.
+    Drawn boxes jut out of drawn outlines: 95 % of its area is enough for an example to be contained, and one of several
+    may jut out further where the others do not. Where no label contains them all (a window beyond the edge of a
+    photograph), the one that contains most does, and the others belong to the polygon of that label nearest to them.
 
     Parameters
     ----------
@@ -220,33 +220,44 @@ def parents_of(examples: Sequence[Example]) -> list[Polygon]:
     InputError
         For an example that lies in no polygon and near none of the label that contains the others.
     """
-    found: list[dict[str, Polygon]] = [_containing(e, CONTAINED_SHARE) for e in examples]
-    if not any(found):
-        found = [_containing(e, JUTTING_SHARE) for e in examples]
-    count = Counter(label for of in found for label in of)
-    if not count:
+    found = [_holding(e) for e in examples]
+    shares = {label: [of.get(label, (0.0, None))[0] for of in found] for label in {name for of in found for name in of}}
+    if not shares:
         raise InputError(f"{_named(examples[0])} lies in no polygon of its scene; draw it inside one")
-    most = max(count.values())
 
-    def size(label: str) -> float:
-        return float(np.mean([of[label].area for of in found if label in of]))
+    def size(label: str) -> tuple[float, str]:
+        return float(np.mean([of[label][1].area for of in found if label in of])), label
 
-    label = min((name for name in count if count[name] == most), key=lambda name: (size(name), name))
-    return [of.get(label) or _nearest(e, label) for e, of in zip(examples, found, strict=True)]
+    def contains(share: list[float]) -> bool:
+        within = np.array(share)
+        return bool(
+            np.median(within) >= CONTAINED_SHARE and within.mean() >= JUTTING_MEAN and within.min() >= JUTTING_SHARE
+        )
+
+    labels = [label for label, share in shares.items() if contains(share)]
+    if not labels:
+        count = {label: sum(s >= JUTTING_SHARE for s in share) for label, share in shares.items()}
+        labels = [label for label in count if count[label] == max(count.values())]
+    label = min(labels, key=size)
+    return [of[label][1] if label in of else _nearest(e, label) for e, of in zip(examples, found, strict=True)]
 
 
-def _containing(example: Example, share: float) -> dict[str, Polygon]:
-    """The smallest polygon of each label that holds a share of an example."""
+def _holding(example: Example) -> dict[str, tuple[float, Polygon]]:
+    """The polygon of each label that holds most of an example, and the share: the smallest that holds 95 % of it."""
     shape = shapely.Polygon(example.rectangle.ring)
-    found: dict[str, Polygon] = {}
+    found: dict[str, tuple[float, Polygon]] = {}
+    r = example.rectangle
     for polygon in example.scene.polygons:
         x0, y0, x1, y1 = polygon.bounds
-        r = example.rectangle
         if not (x0 <= r.x <= x1 and y0 <= r.y <= y1):
             continue
-        smaller = polygon.label not in found or polygon.area < found[polygon.label].area
-        if smaller and shapely.area(shapely.intersection(polygon.shape, shape)) >= share * shape.area:
-            found[polygon.label] = polygon
+        share = float(shapely.area(shapely.intersection(polygon.shape, shape)) / shape.area)
+        if share < JUTTING_SHARE:
+            continue
+        known, best = found.get(polygon.label, (0.0, polygon))
+        enough, known_enough = share >= CONTAINED_SHARE, known >= CONTAINED_SHARE
+        if (enough and known_enough and polygon.area < best.area) or (share > known and not known_enough):
+            found[polygon.label] = share, polygon
     return found
 
 

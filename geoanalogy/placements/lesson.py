@@ -25,6 +25,10 @@ PRIOR_RELIABILITY = 0.7
 LEAST_BETWEEN = 0.75
 
 
+#: Scatter of a coordinate below which examples agree in it exactly, in widths of the Gaussians.
+HABIT_FLOOR = 0.3
+
+
 @dataclass(frozen=True)
 class Taught:
     """One example, as a model keeps it: without its scene.
@@ -113,16 +117,19 @@ class Match:
     ----------
     total : ndarray of shape (n, m)
         Utility of the best assignment (eq. 5.4), weighted.
-    along_x, along_y : ndarray of shape (n, m) or None
-        Agreement with the element nearest to the example along each axis, 0 to 1; None for outlines.
+    along_x, along_y : ndarray of shape (n, m)
+        Agreement with the element nearest to the example along each axis, 0 to 1; of outlines that in both at once.
+    of_boxes : bool
+        Whether the group is one of boxes.
     joint : ndarray of shape (n, m)
         Of both axes at once with one element, 0 to 1.
     """
 
     total: Array
-    along_x: Array | None
-    along_y: Array | None
+    along_x: Array
+    along_y: Array
     joint: Array
+    of_boxes: bool
 
 
 class Lesson:
@@ -221,7 +228,7 @@ class Lesson:
             return np.broadcast_to((SAMPLE_COUNTS / SAMPLE_COUNTS.sum())[None, :, None], (2, 3, 4)).copy()
         return np.full(values.shape[2:], 1.0 / values.shape[2])
 
-    def _agreement(self, key: str, a: Array, b: Array) -> Array:
+    def _agreement(self, key: str, a: Array, b: Array) -> NDArray[Any]:
         if key in self.kept.boxes:
             return box_agreement(a, b, self.widths, self.options.tau)
         return outline_agreement(key, a, b, self.widths, self.options.tau)
@@ -250,8 +257,7 @@ class Lesson:
             there = seen.boxes.get(key, seen.outlines.get(key))
             if there is None:
                 nothing = np.zeros((len(seen.boxes[PARENT_BOX]), len(values)))
-                along = nothing if key in self.kept.boxes else None
-                found[key] = Match(nothing, along, along, nothing)
+                found[key] = Match(nothing, nothing, nothing, nothing, key in self.kept.boxes)
                 continue
             agreement = self._agreement(key, there, kept)
             weight = self.weights[key][:, :neighbours].astype(np.float32)
@@ -266,13 +272,15 @@ class Lesson:
                     x[..., 0].max(axis=2).astype(np.float64),
                     y[..., 0].max(axis=2).astype(np.float64),
                     first.max(axis=2).astype(np.float64),
+                    True,
                 )
             else:
                 utility = np.einsum("nmpqsr,mqsr->nmpq", agreement, weight)
                 total = best_assignment(utility)[0].astype(np.float64)
                 there = np.isfinite(kept[:, :, 0, 0])
                 whole = np.maximum((weight.sum(axis=(2, 3)) * there).sum(axis=1), 1e-9)
-                found[key] = Match(total, None, None, np.minimum(total / whole, 1.0))
+                share = np.minimum(total / whole, 1.0)
+                found[key] = Match(total, share, share, share, False)
         return found
 
     @cached_property
@@ -287,7 +295,8 @@ class Lesson:
     @cached_property
     def _whole(self) -> Array:
         """The utility of each example with itself, shape (m,)."""
-        return np.maximum(sum(m.total for m in self._among_examples.values()).diagonal(), 1e-9)
+        totals = np.sum([m.total for m in self._among_examples.values()], axis=0)
+        return np.maximum(totals.diagonal(), 1e-9)
 
     def similarities(self, matches: dict[str, Match]) -> Array:
         """The adapted SL0 similarity (eq. 5.5) as a share of the example's with itself.
@@ -300,7 +309,7 @@ class Lesson:
         -------
         ndarray of shape (n, m)
         """
-        return sum(m.total for m in matches.values()) / self._whole
+        return np.sum([m.total for m in matches.values()], axis=0) / self._whole
 
     @cached_property
     def reliability(self) -> dict[str, tuple[float, float, float]]:
@@ -311,11 +320,61 @@ class Lesson:
         for key, match in self._among_examples.items():
             parts = []
             for value in (match.along_x, match.along_y, match.joint):
-                part = match.joint if value is None else value
-                best = np.where(others, part[np.ix_(p, p)], 0.0).max(axis=1)
-                parts.append(float(best.mean()) if len(p) > 1 else PRIOR_RELIABILITY * float(part[p[0], p[0]] > 0))
+                best = np.where(others, value[np.ix_(p, p)], 0.0).max(axis=1)
+                parts.append(float(best.mean()) if len(p) > 1 else PRIOR_RELIABILITY * float(value[p[0], p[0]] > 0))
             found[key] = (parts[0], parts[1], parts[2])
         return found
+
+    @cached_property
+    def habits(self) -> dict[str, tuple[Array, Array, Array]]:
+        """What each edge keeps to, by group: medians of its box coordinates, their scatter, and their weights.
+
+        Of all coordinates of an edge, to the nearest element of any group, those that scatter least among the positive
+        examples weigh most: it is what the edge follows, be it the window's corner or a share of the parent.
+
+        Returns
+        -------
+        dict of str to tuple of ndarray
+            Arrays of shape (2, 2, 4): axis, edge (low, high), coordinate; the scatter in scene units; weights add up
+            to 1 over the groups and coordinates of an edge.
+        """
+        found: dict[str, tuple[Array, Array, Array]] = {}
+        floor = HABIT_FLOOR * self.widths[:2, None, None]
+        for key, values in self.kept.boxes.items():
+            edges = values[self.positive, 0][:, :, [0, 2]]
+            if not np.isfinite(edges).all():
+                continue
+            middle = np.median(edges, axis=0)
+            scatter = edges.std(axis=0)
+            scatter[..., 3] *= (edges[..., 0] - edges[..., 1]).mean(axis=0)  # shares of the elements' mean extent
+            found[key] = middle, scatter, 1.0 / (scatter**2 + floor**2)
+        whole = sum(weight.sum(axis=2, keepdims=True) for _, _, weight in found.values())
+        return {key: (middle, scatter, weight / whole) for key, (middle, scatter, weight) in found.items()}
+
+    def habitual(self, seen: Signature) -> Array:
+        """How well each edge of boxes keeps to what it keeps to among the examples.
+
+        Parameters
+        ----------
+        seen : Signature
+            Of n boxes.
+
+        Returns
+        -------
+        ndarray of shape (n, 2, 2)
+            By axis and edge (low, high), between 0 and 1.
+        """
+        n = len(seen.boxes[PARENT_BOX])
+        kept = np.zeros((n, 2, 2))
+        for key, (middle, scatter, weight) in self.habits.items():
+            if key not in seen.boxes:
+                continue
+            edges = seen.boxes[key][:, 0][:, :, [0, 2]]
+            off = edges - middle
+            off[..., 3] *= edges[..., 0] - edges[..., 1]
+            width = scatter + self.widths[:2, None, None]
+            kept += np.nan_to_num(weight * np.exp(-0.5 * (off / width) ** 2)).sum(axis=3)
+        return kept
 
     @cached_property
     def one_each(self) -> bool:

@@ -1,5 +1,6 @@
 """Learning a placement from examples, and placing (chapter 5): the public face of the engine."""
 
+from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -26,6 +27,8 @@ from .survey import Survey, refined, survey
 
 Array = NDArray[np.float64]
 
+#: Arrangements whose candidates a model remembers: those on the screen, not those of a city.
+SURVEYS_KEPT = 64
 #: What a stored model calls its form.
 SCHEMA = "geoanalogy.placement/1"
 
@@ -71,6 +74,7 @@ class PlacementModel:
         self.label = label
         self.orientation = orientation
         self.lesson = lesson
+        self._surveys: OrderedDict[Arrangement, Survey] = OrderedDict()
 
     @property
     def options(self) -> PlacementOptions:
@@ -144,7 +148,7 @@ class PlacementModel:
             arrangement = arrangement_of(scene, parent, frame)
             shown = self.shown_in(arrangement)
             positive, drawn = self._drawn(arrangement, shown)
-            seen = survey(self.lesson, arrangement, positive, drawn)
+            seen = self._survey(arrangement, positive, drawn)
             score = self.scores(seen, drawn)
             good = score >= max(least, 1e-6)
             if self.orientation.by_segment:
@@ -179,6 +183,14 @@ class PlacementModel:
                 found += [Placement(t.rectangle, t.target, parent, 0.0) for t in shown if t.target >= max(least, 1e-6)]
         return _disjoint(found, self.options.allow_overlaps) if len(frames) > 1 and least > 0 else found
 
+    def _survey(self, arrangement: Arrangement, positive: Array, drawn: Array) -> Survey:
+        """The rated candidates of an arrangement; the last few are kept, so that another threshold costs no search."""
+        if arrangement not in self._surveys:
+            self._surveys[arrangement] = survey(self.lesson, arrangement, positive, drawn)
+            if len(self._surveys) > SURVEYS_KEPT:
+                self._surveys.popitem(last=False)
+        return self._surveys[arrangement]
+
     def rule(self) -> list[Relation]:
         """The learned rule in words.
 
@@ -204,7 +216,9 @@ class PlacementModel:
         if not self.orientation.by_segment:
             return same
         centres = np.array([(t.rectangle.x, t.rectangle.y) for t in same]).reshape(-1, 2)
-        facing = nearest_directions(arrangement.parent, centres) + self.orientation.offset if len(same) else []
+        if not same:
+            return []
+        facing = nearest_directions(arrangement.parent, centres) + self.orientation.offset
         return [t for t, angle in zip(same, facing, strict=True) if _parallel(angle, arrangement.frame)]
 
     def _drawn(self, arrangement: Arrangement, shown: list[Taught]) -> tuple[Array, Array]:
@@ -355,4 +369,6 @@ def _disjoint(found: list[Placement], allowed: float) -> list[Placement]:
 
 def _plain(values: Array) -> Any:
     """Nested lists with None for NaN: JSON knows no NaN."""
-    return np.where(np.isnan(values), None, values.astype(object)).tolist()
+    plain = values.astype(object)
+    plain[np.isnan(values)] = None
+    return plain.tolist()

@@ -64,4 +64,5 @@ class PlacementOptions:
     @classmethod
     def from_dict(cls, plain: dict[str, Any]) -> "PlacementOptions":
         """The inverse of `to_dict`."""
-        return cls(**{k: np.inf if v is None else v for k, v in plain.items()})
+        values: dict[str, Any] = {k: np.inf if v is None else v for k, v in plain.items()}
+        return cls(**values)

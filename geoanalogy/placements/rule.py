@@ -91,7 +91,7 @@ def reasons(lesson: Lesson, parent_label: str, matches: dict[str, Match]) -> lis
     told: dict[str, str] = {}
     for relation in learned_rule(lesson, parent_label):
         told[relation.label] = f"{told[relation.label]}, {relation.text}" if relation.label in told else relation.text
-    keys = [key for key, match in matches.items() if match.along_x is not None]
+    keys = [key for key, match in matches.items() if match.of_boxes]
     strength = np.stack(
         [matches[key].joint[:, lesson.positive].max(axis=1) * lesson.reliability[key][2] for key in keys], axis=1
     )

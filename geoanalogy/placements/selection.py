@@ -60,12 +60,15 @@ def without_overlaps(boxes: Array, score: Array, taken: Array, allowed: float) -
     """
     free = (overlap(boxes, taken) <= allowed).all(axis=1) if len(taken) else np.ones(len(boxes), dtype=bool)
     order = np.argsort(-score, kind="stable")
+    order = order[free[order]]
+    apart = overlap(boxes[order], boxes[order]) <= allowed
     kept = []
-    for i in order:
+    free = np.ones(len(order), dtype=bool)
+    for i in range(len(order)):
         if free[i]:
             kept.append(i)
-            free &= overlap(boxes[i : i + 1], boxes)[0] <= allowed
-    return np.array(kept, dtype=np.intp)
+            free &= apart[i]
+    return order[kept]
 
 
 def shape_factor(sizes: Array, taught: Array, aspect_tolerance: float, area_tolerance: float) -> Array:

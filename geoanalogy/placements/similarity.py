@@ -2,6 +2,7 @@
 
 import itertools
 from functools import cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +42,7 @@ def length_widths(sizes: Array, tau: float) -> Array:
     return tau * SIGMA[Kind.LENGTH] * np.array([*(diagonal + size) / 2, diagonal])
 
 
-def box_agreement(a: Array, b: Array, widths: Array, tau: float) -> Array:
+def box_agreement(a: Array, b: Array, widths: Array, tau: float) -> NDArray[Any]:
     """Gaussians of the differences in box coordinates between every two elements.
 
     Parameters
@@ -64,7 +65,7 @@ def box_agreement(a: Array, b: Array, widths: Array, tau: float) -> Array:
     return _gaussian(x[:, None, :, None] - y[None, :, None])
 
 
-def outline_agreement(key: str, a: Array, b: Array, widths: Array, tau: float) -> Array:
+def outline_agreement(key: str, a: Array, b: Array, widths: Array, tau: float) -> NDArray[Any]:
     """Gaussians of the differences in the relations of outlines between every two elements.
 
     Parameters
@@ -94,12 +95,12 @@ def outline_agreement(key: str, a: Array, b: Array, widths: Array, tau: float) -
 NIL = 1e15
 
 
-def _apart(a: Array, b: Array) -> tuple[Array, Array]:
+def _apart(a: NDArray[Any], b: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     """Values in which nil elements are far from everything, other nil elements included."""
     return np.where(np.isnan(a), a.dtype.type(NIL), a), np.where(np.isnan(b), b.dtype.type(-NIL), b)
 
 
-def _gaussian(difference: NDArray[np.float32]) -> Array:
+def _gaussian(difference: NDArray[Any]) -> NDArray[Any]:
     np.multiply(difference, difference, out=difference)
     difference *= np.float32(-0.5)
     np.exp(difference, out=difference)

@@ -9,7 +9,7 @@ from .arrangement import Arrangement
 from .boxes import interval_overlap, union_overlap
 from .calibration import ABROAD, AT_HOME
 from .candidates import crossings, proposals, rhythm, rows_of
-from .evidence import among_evidence, single_evidence
+from .evidence import Company, anchors_of, single_evidence
 from .lesson import Lesson
 from .selection import thin, without_overlaps
 from .signature import signature
@@ -20,13 +20,14 @@ Array = NDArray[np.float64]
 LOOKED_AT, GROWN = 300, 150
 #: Proposals near a result that are looked at to refine it.
 VARIANTS = 10
-#: Overlap from which candidates are of the same place, and how sharply the most similar of them prevails, as a share of
-#: how far examples are from agreeing.
-SAME_PLACE, SHARPNESS = 0.6, 0.3
+#: Overlap from which candidates are of the same place.
+SAME_PLACE = 0.6
 #: Overlap from which two candidates are the same.
 SAME = 0.75
 #: Overlap with an example from which a candidate is that example again.
 EXAMPLE_AGAIN = 0.5
+#: Meetings of rows and columns that are tried for every one that may be added.
+MOST_MET = 4
 #: Certainty from which a candidate's extents are continued across the arrangement.
 CONTINUED = 0.15
 
@@ -38,6 +39,8 @@ class Survey:
     Attributes
     ----------
     boxes : ndarray of shape (n, 4)
+    company : Company
+        The candidates among each other.
     similarities : ndarray of shape (n, m)
         To every example.
     single, among, settled : ndarray of shape (n, …)
@@ -51,6 +54,7 @@ class Survey:
     """
 
     boxes: Array
+    company: Company
     similarities: Array
     single: Array
     among: Array
@@ -77,7 +81,7 @@ def glance(lesson: Lesson, arrangement: Arrangement, present: Array) -> tuple[Ar
     """
     boxes = proposals(lesson, arrangement, present)
     seen = signature(arrangement, boxes, 1, lesson.labels, outlines=not arrangement.parent_fills_box)
-    return boxes, single_evidence(lesson, arrangement, boxes, lesson.match(seen, 1), present)
+    return boxes, single_evidence(lesson, arrangement, boxes, seen, lesson.match(seen, 1), present)
 
 
 def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Array) -> Survey:
@@ -100,7 +104,8 @@ def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
     proposed, quick = glance(lesson, arrangement, present)
     boxes = _without_shown(proposed[thin(proposed, judge.glance.certainty(quick), SAME, LOOKED_AT)], shown)
     similar, single = look(lesson, arrangement, boxes, present)
-    among = among_evidence(boxes, similar[:, lesson.positive].max(axis=1, initial=0.0), present)
+    company = Company(boxes, present, anchors_of(lesson, arrangement, np.concatenate([boxes, present])))
+    among = company.evidence(similar[:, lesson.positive].max(axis=1, initial=0.0))
     first = judge.look.certainty(np.hstack([single, among]))
     more = _without_shown(_continued(boxes, first, present, arrangement), shown)
     if len(more):
@@ -108,11 +113,12 @@ def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
         boxes = np.concatenate([boxes, more])
         similar = np.concatenate([similar, more_similar])
         single = np.concatenate([single, more_single])
-        among = among_evidence(boxes, similar[:, lesson.positive].max(axis=1, initial=0.0), present)
+        company = Company(boxes, present, anchors_of(lesson, arrangement, np.concatenate([boxes, present])))
+        among = company.evidence(similar[:, lesson.positive].max(axis=1, initial=0.0))
         first = judge.look.certainty(np.hstack([single, among]))
-    settled = np.hstack([judge.look.value(np.hstack([single, among]))[:, None], among_evidence(boxes, first, present)])
+    settled = np.hstack([judge.look.value(np.hstack([single, among]))[:, None], company.evidence(first)])
     certainty = judge.settle.certainty(np.hstack([single, among, settled]))
-    return Survey(boxes, similar, single, among, settled, certainty, proposed, quick[:, :2].sum(axis=1))
+    return Survey(boxes, company, similar, single, among, settled, certainty, proposed, quick[:, :2].sum(axis=1))
 
 
 def look(lesson: Lesson, arrangement: Arrangement, boxes: Array, present: Array) -> tuple[Array, Array]:
@@ -129,17 +135,16 @@ def look(lesson: Lesson, arrangement: Arrangement, boxes: Array, present: Array)
     -------
     similarities, evidence : ndarray
     """
-    matches = lesson.match(signature(arrangement, boxes, lesson.options.neighbours, lesson.labels))
-    return lesson.similarities(matches), single_evidence(lesson, arrangement, boxes, matches, present)
+    seen = signature(arrangement, boxes, lesson.options.neighbours, lesson.labels)
+    matches = lesson.match(seen)
+    return lesson.similarities(matches), single_evidence(lesson, arrangement, boxes, seen, matches, present)
 
 
 def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDArray[np.intp]) -> tuple[Array, Array]:
     """Chosen candidates, each moved to what is most similar to the examples nearby.
 
     The quick look tells places apart, not whether an edge follows the window's edge or its centre: of the proposals
-    that were taken for the same, the full feature vector decides. Where examples agree with each other only roughly, so
-    do the proposals that follow from them, and their mean, weighted by similarity, is nearer to what is meant than the
-    best of them; where examples agree exactly, the best alone counts.
+    that were taken for the same, the full feature vector decides.
 
     Parameters
     ----------
@@ -176,13 +181,9 @@ def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDAr
     options = np.concatenate([seen.proposed[best], seen.boxes[among]])
     alike = np.concatenate([of_variants[where.ravel()], seen.similarities[among]])
     worth = quality(alike)
-    top = np.full(len(chosen), -np.inf)
-    np.maximum.at(top, rows, worth)
-    weight = np.exp((worth - top[rows]) / (SHARPNESS * (1.0 - lesson.cohesion) + 1e-4))
-    total = np.bincount(rows, weight, len(chosen))
-    boxes = np.stack([np.bincount(rows, weight * c, len(chosen)) for c in options.T], axis=1) / total[:, None]
-    best_of = rows[worth >= top[rows]]
-    similar[best_of] = alike[worth >= top[rows]]
+    order = np.lexsort((-worth, rows))
+    row, first = np.unique(rows[order], return_index=True)
+    boxes[row], similar[row] = options[order[first]], alike[order[first]]
     return boxes, similar
 
 
@@ -202,10 +203,10 @@ def _continued(boxes: Array, certainty: Array, present: Array, arrangement: Arra
     if len(every) < 2:
         return np.zeros((0, 4))
     x, y = (rows_of(every[:, [a, a + 2]]) for a in (0, 1))
-    boxes_of = crossings(np.concatenate([x, rhythm(x)]), np.concatenate([y, rhythm(y)]))
-    new = union_overlap(boxes_of, boxes).max(axis=1, initial=0.0) < SAME
+    meetings = crossings(np.concatenate([x, rhythm(x)]), np.concatenate([y, rhythm(y)]))
     weight = np.concatenate([np.ones(len(present)), certainty[likely]])
-    support = np.prod([(interval_overlap(boxes_of, every, a) * weight).sum(axis=1) for a in (0, 1)], axis=0)
-    inside = arrangement.share_outside(boxes_of) <= 0.5
-    grown = boxes_of[new & inside]
-    return grown[np.argsort(-support[new & inside], kind="stable")[:GROWN]]
+    support = np.prod([(interval_overlap(meetings, every, a) * weight).sum(axis=1) for a in (0, 1)], axis=0)
+    best = np.argsort(-support, kind="stable")[: MOST_MET * GROWN]
+    meetings = meetings[best]
+    new = union_overlap(meetings, boxes).max(axis=1, initial=0.0) < SAME
+    return meetings[new & (arrangement.share_outside(meetings) <= 0.5)][:GROWN]
