@@ -36,10 +36,13 @@ class Ground:
     plane : Plane
     scene : Scene
         Ids are the objects' names, with a number behind a slash where an object has several polygons.
+    alternatives : dict of str to list of (float, float)
+        By the polygon's id, the ring that stands for it when results are validated (section 4.8).
     """
 
     plane: Plane
     scene: Scene
+    alternatives: dict[str, list[tuple[float, float]]]
 
 
 @dataclass
@@ -181,12 +184,25 @@ def read_grounds(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, without
         layer = min(layers, key=lambda one: abs(one.plane.to_plane([item.matrix_world.translation])[0, 2]))
         ring = footprint_ring_of(item, layer.plane, depsgraph)
         layer.polygons[item.name] = [_polygon(item, layer.plane, [ring], item.name, labels[item.name])]
-    return [_ground(layer) for layer in layers]
+    return [_ground(layer, scene, depsgraph) for layer in layers]
 
 
-def _ground(layer: _Layer) -> Ground:
+def _ground(layer: _Layer, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> Ground:
     polygons = [p for name in sorted(layer.polygons) for p in layer.polygons[name]]
-    return Ground(layer.plane, Scene(polygons, memory=memory))
+    alternatives = {}
+    for name in layer.polygons:
+        wanted = scene.objects[name].get(names.VALIDATION)
+        if wanted is None:
+            continue
+        item = scene.objects.get(str(wanted))
+        if item is None:
+            raise InputError(f"object {name!r} is to be validated as {wanted!r}, which is not there; correct the name")
+        rings = rings_of(item, depsgraph)
+        if len(rings) != 1:
+            raise InputError(f"object {item.name!r} has {len(rings)} closed lines; one is to stand for {name!r}")
+        ring = layer.plane.to_plane(rings[0].points)[:, :2]
+        alternatives[name] = [(float(x), float(y)) for x, y in ring]
+    return Ground(layer.plane, Scene(polygons, memory=memory), alternatives)
 
 
 def _drawn(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> _Drawn | None:

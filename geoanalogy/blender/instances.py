@@ -113,6 +113,11 @@ def write_results(
     left = _leave(holder, [e.key for e in shown]) if unmoved else 0
     if not left:
         delete_results(holder)
+    # Copies of what is selected would be selected too.
+    family = [*(one.item for one in by_mesh.values()), *(child for own in children.values() for child in own)]
+    selected = [item for item in family if item.select_get()]
+    for item in selected:
+        item.select_set(False)
     for count, e in enumerate(shown[left:], left + 1):
         one = by_mesh[e.mesh]
         made = one.item.copy()
@@ -121,6 +126,8 @@ def write_results(
         _stand(made, e, one.rest, plane)
         holder.objects.link(made)
         _copy_children(one.item, made, holder, children)
+    for item in selected:
+        item.select_set(True)
     return len(shown)
 
 

@@ -78,9 +78,14 @@ def learn(item: bpy.types.Object, around: Surroundings, scene: Scene, options: P
     """
     pose, ring = pose_of(item, around.plane), footprint_of(item, around.plane, around.depsgraph)
     try:
-        return learn_pose(scene, pose, ring, options)
+        return learn_pose(scene, pose, ring, _with_alternatives(options, around))
     except InputError as error:
         raise InputError(f"object {item.name!r}: {error}") from None
+
+
+def _with_alternatives(options: PoseOptions, around: Surroundings) -> PoseOptions:
+    """Options that know which outlines stand for others when results are validated."""
+    return replace(options, alternative_geometry={**options.alternative_geometry, **around.ground.alternatives})
 
 
 def learn_row(
@@ -117,7 +122,8 @@ def learn_row(
     ring = footprint_of(start, around.plane, around.depsgraph)
     last = pose_of(end[0], around.plane) if end else None
     try:
-        return learn_array(scene, pose_of(start, around.plane), last, spacing, ring, options, array_options)
+        drawn = _with_alternatives(options, around)
+        return learn_array(scene, pose_of(start, around.plane), last, spacing, ring, drawn, array_options)
     except InputError as error:
         raise InputError(f"object {start.name!r}: {error}") from None
 

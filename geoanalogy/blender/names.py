@@ -21,7 +21,7 @@ FOOTPRINT = "ga_footprint"
 #: On mesh objects: "joined" (faces that share edges are one polygon) or "each" (every face is one).
 FACES = "ga_faces"
 
-#: On objects: name of the object that stands for it when results are validated, such as a door with its swing.
+#: On drawn objects: name of the object whose outline stands for it when results are validated: a door with its swing.
 VALIDATION = "ga_validation"
 
 #: On results: the node that made them, and their key among its results.

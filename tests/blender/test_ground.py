@@ -239,6 +239,15 @@ def test_parents_orientations_and_segment_labels_come_from_properties():
     assert polygon.segment_labels == ("door", "", "window", "")
 
 
+def test_a_door_is_validated_with_its_swing():
+    face("Room", ROOM, "room")
+    face("Door", SQUARE, "door")["ga_validation"] = "Swing"
+    face("Swing", 1.5 * SQUARE)
+    (ground,) = read()
+    assert same_ring(ground.alternatives["Door"], 1.5 * SQUARE)
+    assert [p.id for p in ground.scene.polygons] == ["Door", "Room"]
+
+
 def test_results_and_named_objects_are_left_out():
     face("Room", ROOM, "room")
     box("Bed", (1, 1, 1), "bed", at=(1, 1, 0))
@@ -289,7 +298,12 @@ def lamp():
     return link(bpy.data.objects.new("Nothing", None), "room")
 
 
+def no_swing():
+    face("Door", ROOM, "door")["ga_validation"] = "Swing"
+
+
 BAD = [
+    (no_swing, "object 'Door' is to be validated as 'Swing', which is not there"),
     (lambda: curve("Open", [3 * SQUARE], cyclic=False), "spline 1 of object 'Open' is open: its ends are 3 apart"),
     (lambda: strokes("Open", [SQUARE]), "stroke 1 of layer 'Lines' of object 'Open' is open: its ends are 1 apart"),
     (bow_tie, "'Knot' crosses or touches itself"),

@@ -154,6 +154,7 @@ def test_propagate_places_what_the_engine_says():
     assert {i.data for i in found} == {item.data}
     assert [i["ga_node"] for i in found] == [node.name] * len(found)
     assert node["count"] == len(found) == 2
+    assert bpy.context.selected_objects == [item]
 
 
 def test_results_stand_like_the_example():
@@ -283,6 +284,18 @@ def test_most_and_spacing_limit_what_is_shown():
     gaps = np.linalg.norm(centres[:, None] - centres[None], axis=2)
     same_room = (centres[:, None, 0] // 5) == (centres[None, :, 0] // 5)
     assert gaps[same_room & (gaps > 0)].min(initial=9.0) >= 3.0
+
+
+def test_results_stay_clear_of_a_doors_swing():
+    rooms(2)
+    box_size, place = (0.6, 0.6, 0.5), (2.6, 0.4, 0)
+    face("swing 1", [(2, 0), (3.9, 0), (3.9, 0.9), (2, 0.9)], at=(5.0, 0.0, 0.0))
+    activate(box("Trunk", box_size, "trunk", at=place))
+    propagate(mirror="NO")
+    assert [i.location.x for i in results()] == pytest.approx([7.6], abs=0.01)
+    bpy.data.objects["door 1"]["ga_validation"] = "swing 1"
+    propagate(mirror="NO")
+    assert not [i for i in results() if i.location.x == pytest.approx(7.6, abs=0.05)]
 
 
 def test_propagate_is_one_step_of_undo():
