@@ -26,6 +26,8 @@ SAMPLES = 72
 LEAST_SAMPLES = 10
 #: Stretches of the query, longest first, that are aligned; the descriptors see the others.
 MOST_SOURCES = 4
+#: Stretches of the drawing, longest first, that they are aligned with: the work grows with their number.
+MOST_TARGETS = 60
 #: Lengths of a target stretch in lengths of the query stretch that are tried: the target may be a part of the query's
 #: counterpart (below 1) or contain it (above).
 SHARES = (0.5, 0.6, 0.71, 0.84, 1.0, 1.19, 1.41, 2.0)
@@ -92,7 +94,7 @@ def align(contours: Contours, sources: list[Run], targets: list[Run], mirrored: 
     """
     longest = float(lengths(contours, sources[:1])[0])
     out: list[Alignment] = []
-    sources = sources[:MOST_SOURCES]
+    sources, targets = sources[:MOST_SOURCES], targets[:MOST_TARGETS]
     for run, length in zip(sources, lengths(contours, sources), strict=True):
         count = round(SAMPLES * length / longest)
         if count < LEAST_SAMPLES:

@@ -25,6 +25,8 @@ STRAIN = 0.45
 TURN, DISTANCE = 0.012, 0.006
 #: Exponents of the factors: how much each says about a match being the right one.
 EXPONENTS = {"coverage": 0.45, "smooth": 0.6, "course": 0.8, "near": 0.25, "own": 0.2, "whole": 0.7}
+#: Coverage below which a match is doubtful however well the little agrees: short stretches are alike everywhere.
+SCANT = 0.4
 #: Factor of mirrored targets: between two that are alike in all else, the one that is not mirrored comes first.
 MIRRORED = 0.85
 #: Least value of a factor, so that one alone never says everything.
@@ -64,7 +66,7 @@ class Evidence:
     @property
     def similarity(self) -> float:
         """The factors' weighted product, 0 to 1."""
-        product = MIRRORED if self.mirrored else 1.0
+        product = min(1.0, self.coverage / SCANT) * (MIRRORED if self.mirrored else 1.0)
         for name, exponent in EXPONENTS.items():
             product *= max(getattr(self, name), FLOOR) ** exponent
         return float(product)

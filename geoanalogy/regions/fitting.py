@@ -23,12 +23,17 @@ SAMPLES = 96
 BAND = 7
 #: Stiffness of the functions, round by round: (strain, bend) weights beside a mean squared distance of 1.
 ROUNDS = ((0.3, 0.3), (0.1, 0.2), (0.03, 0.1), (0.02, 0.1), (0.01, 0.1), (0.01, 0.1))
+#: After so many rounds only so many candidates of each place, those with most counterparts, are fitted on.
+FIRST_ROUNDS, FINALISTS = 2, 4
+#: Candidates whose images' centres are nearer than this, in extents of the images, are of one place.
+PLACE = 0.35
 #: Distance, in extents of the query at the target's scale, at which a counterpart is no evidence any more.
 FAR = 0.05
 #: Weights of the Viterbi costs: distance (in units of FAR), stretch between neighbours, turn between neighbours.
 DISTANCE, STRETCH, TURN = 1.0, 0.35, 1.5
-#: Cost of a sample without counterpart, and of stepping to another line.
-MISSING, CHANGE = 0.4, 1.0
+#: Cost of a sample without counterpart, of stepping to another line (and the squared distance, in units of FAR, by
+#: which the step misses the one of the image), and of any step at most.
+MISSING, CHANGE, MOST_COST = 0.4, 0.15, 4.0
 
 
 @dataclass(frozen=True)
@@ -162,17 +167,23 @@ class Fitter:
         right = rows.conj().T[None] @ (share * image)[:, :, None]
         return np.linalg.solve(left, right)[:, :, 0]
 
-    def fit(self, unknowns: Complex, mirrored: NDArray[np.bool_]) -> list[Fit]:
-        """Refine candidates.
+    def fit(self, unknowns: Complex, mirrored: NDArray[np.bool_], finalists: int = FINALISTS) -> list[Fit]:
+        """Refine candidates, and give up those that find few lines.
 
         Parameters
         ----------
         unknowns : (h, 2m) complex
             Functions to start from.
         mirrored : (h,) bool
+        finalists : int
+            Candidates of each place that are fitted to the end.
         """
-        for stiffness in ROUNDS:
+        for number, stiffness in enumerate(ROUNDS):
             _, image, weight, _, _ = self.counterparts(unknowns, mirrored)
+            if number == FIRST_ROUNDS:
+                order = np.argsort(-weight.mean(1), kind="stable")
+                best = order[self.apart(unknowns[order], mirrored[order], finalists)]
+                unknowns, mirrored, image, weight = unknowns[best], mirrored[best], image[best], weight[best]
             unknowns = self._solve(self.rows, image, weight + 1e-6, stiffness)
         at, _, _, distance, tilt = self.counterparts(unknowns, mirrored)
         m = len(self.nodes.at)
@@ -180,6 +191,22 @@ class Fitter:
             Fit(TransformationFunction(self.nodes, u[:m], u[m:], bool(flip)), a, d, t)
             for u, flip, a, d, t in zip(unknowns, mirrored, at, distance, tilt, strict=True)
         ]
+
+    def apart(self, unknowns: Complex, mirrored: NDArray[np.bool_], each: int) -> NDArray[np.intp]:
+        """Indices of candidates, given best first, without those of a place that already has `each` better ones.
+
+        A place with many candidates (a circle fits in every direction) would otherwise crowd out all others.
+        """
+        m = len(self.nodes.at)
+        centre = unknowns[:, :m].mean(1)
+        centre = np.where(mirrored, np.conj(centre), centre)
+        extent = self.size * np.abs(unknowns[:, m:]).mean(1)
+        kept: list[int] = []
+        for i in range(len(unknowns)):
+            reach = PLACE * np.maximum(extent[i], extent[kept])
+            if (np.abs(centre[kept] - centre[i]) < reach).sum() < each:
+                kept.append(i)
+        return np.array(kept, np.intp)
 
     def counterparts(
         self, unknowns: Complex, mirrored: NDArray[np.bool_]
@@ -208,7 +235,7 @@ class Fitter:
         tilt = np.abs(np.arcsin(np.clip(np.sin(angle), -1, 1)))
         cost = DISTANCE * (distance / FAR) ** 2 + np.sin(angle) ** 2 * 0.5
         cost[at < 0] = np.inf
-        chosen = self._viterbi(cost, at, np.sign(np.cos(angle)), scale, mirrored)
+        chosen = self._viterbi(cost, at, point, seen, np.sign(np.cos(angle)), scale, mirrored)
         h, k = np.indices(chosen.shape)
         here = at[h, k, chosen]
         away, skewed = distance[h, k, chosen], tilt[h, k, chosen]
@@ -220,7 +247,14 @@ class Fitter:
         return here, goal, weight, away, np.where(missing, np.pi / 2, skewed)
 
     def _viterbi(
-        self, cost: Floats, at: NDArray[np.intp], side: Floats, scale: Floats, mirrored: NDArray[np.bool_]
+        self,
+        cost: Floats,
+        at: NDArray[np.intp],
+        point: Complex,
+        seen: Complex,
+        side: Floats,
+        scale: Floats,
+        mirrored: NDArray[np.bool_],
     ) -> NDArray[np.intp]:
         """Index of the chosen candidate of every sample (h, s); -1: none."""
         s, target = self.samples, self.target
@@ -229,6 +263,8 @@ class Fitter:
         total = np.concatenate([np.minimum(cost[:, 0], 1e6), np.full((count, 1), missing)], 1)
         back = np.zeros((length, count, width + 1), np.int16)
         sign = np.where(mirrored, -1.0, 1.0)
+        ahead = np.diff(seen, axis=1, prepend=seen[:, :1])
+        unit = scale * self.size
         for i in range(1, length):
             before, here = at[:, i - 1], at[:, i]
             if s.step[i] == 0.0:
@@ -243,7 +279,9 @@ class Fitter:
                 turn = np.where(side[:, i][:, None, :] * side[:, i - 1][:, :, None] > 0, turn, 0.0)
                 miss = sign[:, None, None] * s.turn[i] - turn
                 move = STRETCH * stretch**2 + TURN * np.minimum(miss**2, 2.0)
-                move = np.where(left[:, :, None] == right[:, None, :], np.minimum(move, 4 * CHANGE), CHANGE)
+                jump = np.abs(point[:, i][:, None, :] - point[:, i - 1][:, :, None] - ahead[:, i][:, None, None])
+                jump = np.minimum(CHANGE + (jump / (FAR * unit[:, None, None])) ** 2, MOST_COST)
+                move = np.where(left[:, :, None] == right[:, None, :], np.minimum(move, MOST_COST), jump)
             full = np.empty((count, width + 1, width + 1))
             full[:, :-1, :-1] = move
             full[:, -1, :] = 0.3

@@ -12,15 +12,19 @@ from ..progress import Progress, Stepper, run, within
 from .alignment import align
 from .correspondences import Correspondences, aligned, described
 from .evidence import Evidence, evidence, node_support, support
-from .fitting import Fit, Fitter
+from .fitting import FINALISTS, Fit, Fitter
+from .groups import laid_over
 from .linkage import branched, clusters, similarities
 from .options import RegionOptions
 from .query import Query
 from .refinement import Refined, refine
 from .transformation import Nodes, TransformationFunction
 
-#: Candidates that are fitted to the lines at most: those of single aligned lines, and sets of correspondences.
-MOST_ALIGNED, MOST_CLUSTERS = 16, 16
+#: Aligned lines and sets of correspondences that become candidates at most.
+MOST_ALIGNED, MOST_CLUSTERS = 80, 60
+#: Candidates of each place, and of each source (aligned lines, sets of correspondences, groups of lines), that are
+#: fitted; and those of each place that are fitted to the end where branches may share a place.
+EACH_PLACE, EACH_SOURCE, BRANCH_FINALISTS = 6, 32, 16
 #: Share of the query points that a set of correspondences must have.
 LEAST_SHARE = 0.15
 #: Candidates whose query points land on average nearer than this, in extents of the query, are one.
@@ -29,6 +33,10 @@ SAME = 0.04
 SHARED = 0.5
 #: The same for branches, which share the lines of their trunk.
 ALL_SHARED = 0.85
+
+
+#: Unknowns of a function to start from, and whether it is mirrored.
+Start = tuple[Complex, bool]
 
 
 class RegionMatch:
@@ -180,31 +188,44 @@ def matching(drawing: Drawing, query: ArrayLike, options: RegionOptions | None =
     nodes = Nodes.of(region.points, region.spacing, options.neighbourhood)
     fitter = Fitter(contours, region, nodes)
     yield 0.1, "aligning lines"
-    courses = align(contours, region.runs, region.rest, options.mirrored, 3 * MOST_ALIGNED)
+    alignments = align(contours, region.runs, region.rest, options.mirrored, MOST_ALIGNED)
     yield 0.2, "comparing descriptors"
     noisy = Correspondences.joined(
-        [described(drawing, region, options.mirrored, options.largest_scale), aligned(courses)]
+        [described(drawing, region, options.mirrored, options.largest_scale), aligned(alignments)]
     )
     refined = yield from within(
         refine(region.points, noisy, region.size, options.smoothing_radius * region.size), 0.3, 0.6
     )
     alike = similarities(nodes, refined, options.joint_tolerance)
     least = max(3, round(LEAST_SHARE * len(region.points)))
-    sets = yield from within(clusters(nodes, refined, alike, least), 0.6, 0.8)
-    starts = [(fitter.start(a.source, a.target, np.ones(len(a.source)), (0.1, 0.1)), a.mirrored) for a in courses]
-    starts = _distinct(starts, SAME * region.size)[:MOST_ALIGNED]
-    sets = sets[:MOST_CLUSTERS]
+    sets = (yield from within(clusters(nodes, refined, alike, least), 0.6, 0.8))[:MOST_CLUSTERS]
+    aligned_starts = [
+        (fitter.start(a.source, a.target, np.ones(len(a.source)), (0.1, 0.1)), a.mirrored) for a in alignments
+    ]
     if options.branches:
         sets += [branched(s, nodes, refined, alike) for s in sets]
-    for s in sets:
-        c = s.members
-        u = fitter.through(refined.node[c], refined.image[c], refined.factor[c], refined.magnitude[c])
-        starts.append((u, bool(refined.mirrored[c[0]])))
+    linked = [
+        (
+            fitter.through(refined.node[c], refined.image[c], refined.factor[c], refined.magnitude[c]),
+            bool(refined.mirrored[c[0]]),
+        )
+        for c in (s.members for s in sets)
+    ]
+    laid = [
+        (np.concatenate([a * nodes.at + b, np.full(len(nodes.at), a)]), flip)
+        for a, b, flip in laid_over(
+            fitter.target, fitter.samples.points, region.size, options.mirrored, options.largest_scale
+        )
+    ]
+    starts: list[Start] = []
+    for some in (aligned_starts, linked, laid):
+        starts += _chosen(_distinct(some, SAME * region.size), fitter)
     starts = _distinct(starts, SAME * region.size)
     yield 0.8, "fitting to the lines"
     found: list[tuple[float, RegionMatch, Fit]] = []
     if starts:
-        fits = fitter.fit(np.array([u for u, _ in starts]), np.array([flip for _, flip in starts]))
+        finalists = BRANCH_FINALISTS if options.branches else FINALISTS
+        fits = fitter.fit(np.array([u for u, _ in starts]), np.array([flip for _, flip in starts]), finalists)
         for fit in fits:
             e = evidence(fitter, region, fit, options.joint_tolerance)
             match = RegionMatch(drawing, fit, e, node_support(fitter, support(fit)))
@@ -217,9 +238,17 @@ def matching(drawing: Drawing, query: ArrayLike, options: RegionOptions | None =
     return Matches(chosen[: options.most], least_shown, refined, nodes, region.size)
 
 
-def _distinct(starts: list[tuple[Complex, bool]], near: float) -> list[tuple[Complex, bool]]:
+def _chosen(starts: list[Start], fitter: Fitter) -> list[Start]:
+    """The first candidates of every place, best first."""
+    if not starts:
+        return []
+    apart = fitter.apart(np.array([u for u, _ in starts]), np.array([flip for _, flip in starts]), EACH_PLACE)
+    return [starts[i] for i in apart[:EACH_SOURCE]]
+
+
+def _distinct(starts: list[Start], near: float) -> list[Start]:
     """The first of every group of candidates that map the query points to nearly the same places."""
-    kept: list[tuple[Complex, bool]] = []
+    kept: list[Start] = []
     for u, flip in starts:
         m = len(u) // 2
         if all(flip != other or np.abs(u[:m] - v[:m]).mean() > near for v, other in kept):

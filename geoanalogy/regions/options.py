@@ -45,8 +45,8 @@ class RegionOptions:
         Matches that are returned at most.
     """
 
-    threshold: float = 0.25
-    contrast: float = 0.7
+    threshold: float = 0.08
+    contrast: float = 0.75
     query_kind: str = "auto"
     query_points: int = 50
     reach: float = 0.1

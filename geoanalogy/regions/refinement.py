@@ -15,14 +15,14 @@ from .correspondences import Correspondences
 #: where a query takes up a third of the drawing, but not in a larger one.
 TRANSLATION, SCALE, ROTATION = 0.1, np.log(1.25), np.pi / 4
 #: Noisy correspondences that a query point listens to at most, heaviest first.
-MOST_NEAR = 400
+MOST_NEAR = 250
 #: Modes of a query point at most, and their least magnitude beside the greatest of all.
 MOST_MODES, LEAST_MAGNITUDE = 40, 0.01
 #: Distances in the transformation space between the points from which mean shift starts, and below which two modes
 #: are one.
 SEED_GAP, MERGED_GAP = 1.5, 0.7
 #: Steps of the mean shift.
-SHIFTS = 4
+SHIFTS = 3
 
 
 @dataclass(frozen=True)
