@@ -142,4 +142,4 @@ def build(scene: bpy.types.Scene) -> np.ndarray:
 
 
 if __name__ == "__main__":
-    building.run(build, __doc__, plan.plan(), EDITS, elevation=58.0, lens=85.0, margin=0.02)
+    building.run(build, __doc__, EDITS, elevation=58.0, lens=85.0, margin=0.02)

@@ -4,24 +4,24 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import bpy
 import numpy as np
 
-import geoanalogy as ga
+from geoanalogy.blender import names
+from geoanalogy.blender.instances import clear_results
 
 from . import stage
 from .edits.edit import AnyEdit
-from .edits.recording import record, scene_of
-from .library import ASSETS
-from .library.meshes import add_asset, mesh_of
+from .edits.in_blender import make_edits
+from .library.meshes import mesh_of
 from .library.solids import sheet
 from .plans.outlines import PlanPolygon
 
 PLAN = "Plan"
-PLACED = "Placed"
+EXAMPLES = "Examples"
 # The plan lies a little above the floors, so that its faces can be picked.
 PLAN_HEIGHT = 0.004
 
@@ -38,39 +38,32 @@ def add_plan(scene: bpy.types.Scene, polygons: list[PlanPolygon], height: float 
         holder.objects.link(drawn)
 
 
-def recorded(polygons: list[PlanPolygon], edits: Sequence[AnyEdit]) -> list[ga.Element]:
-    """What the edits place on a plan."""
-    plan = scene_of(polygons)
-    return record(plan, edits).apply(plan)
-
-
-def add_elements(
-    scene: bpy.types.Scene, elements: Iterable[ga.Element], height: Callable[[ga.Element], float] = lambda _: 0.0
-) -> None:
-    """An object for every element, in the collection "Placed"; ``height`` says how high it stands."""
-    holder = stage.collection(scene, PLACED)
-    for item in elements:
-        at, angle = item.pose.position, item.pose.angle
-        add_asset(ASSETS[item.mesh], holder, at, angle, height(item), mirrored=item.pose.mirrored, scale=item.scale)
+def examples_and_results(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """Every object that an edit has put into the scene, the examples first."""
+    results = [item for item in scene.objects if names.KEY in item]
+    return [*(o for o in stage.collection(scene, EXAMPLES).objects if o.type == "MESH"), *results]
 
 
 def run(
     build: Callable[[bpy.types.Scene], np.ndarray],
     description: str,
-    polygons: list[PlanPolygon],
     edits: Sequence[AnyEdit],
-    show: Callable[[bpy.types.Scene, list[ga.Element]], None] = add_elements,
+    height: Callable[[AnyEdit], float] = lambda _: 0.0,
+    finish: Callable[[bpy.types.Scene], None] = lambda _: None,
     **view: float,
 ) -> None:
-    """Command line of a scene: build it in an empty file, then apply its edits, save and render as asked.
+    """Command line of a scene: build it in an empty file, then make its edits, save and render as asked.
 
-    ``build`` fills the scene and returns points (n, 3) that the camera must show, ``show`` adds what the edits have
-    placed; ``view`` goes to :func:`.stage.camera`.
+    ``build`` fills the scene and returns points (n, 3) that the camera must show, ``height`` says how high the example
+    of an edit stands, ``finish`` adds what follows from the edits; ``view`` goes to :func:`.stage.camera`.
     """
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--output", type=Path, help="the .blend to write")
     parser.add_argument("--render", type=Path, help="the .png to write")
-    parser.add_argument("--edits", action="store_true", help="apply the scene's edits, not only its empty plan")
+    parser.add_argument("--edits", action="store_true", help="make the scene's edits, not only its empty plan")
+    parser.add_argument(
+        "--examples-only", action="store_true", help="save the edits without their results: replay makes them"
+    )
     parser.add_argument("--width", type=int, default=1600)
     parser.add_argument("--height", type=int, default=1000)
     parser.add_argument("--samples", type=int, default=32)
@@ -80,9 +73,10 @@ def run(
     scene = stage.clear()
     points = build(scene)
     if arguments.edits:
-        elements = recorded(polygons, edits)
-        show(scene, elements)
-        print(f"placed {len(elements)} objects by {len(edits)} edits")
+        holder = stage.collection(scene, EXAMPLES)
+        for node in make_edits(bpy.context, edits, holder, height):
+            print(f"{node.name}: {len(examples_and_results(scene))} objects", flush=True)
+        finish(scene)
     stage.settings(scene, arguments.width, arguments.height, arguments.samples)
     if arguments.plan_view:
         view = {**view, "elevation": 90.0, "lens": None}
@@ -91,5 +85,7 @@ def run(
         stage.render(scene, arguments.render)
         print(f"rendered {arguments.render}")
     if arguments.output:
+        if arguments.examples_only:
+            clear_results(scene)
         bpy.ops.wm.save_as_mainfile(filepath=str(arguments.output.resolve()), compress=True)
         print(f"saved {arguments.output}")

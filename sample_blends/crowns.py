@@ -11,15 +11,15 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+import shapely
 from mathutils import Matrix
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-import geoanalogy as ga
 from sample_blends import building, stage
 from sample_blends.edits.crowns import EDITS
 from sample_blends.library import ASSETS
-from sample_blends.library.meshes import add_asset, add_solid
+from sample_blends.library.meshes import add_solid
 from sample_blends.library.solids import Solid, at_height, cushion, ellipsoid, joined, loft, sheet, tube
 from sample_blends.plans import crowns as plan
 from sample_blends.plans.crowns import CROWNS, Crown
@@ -138,16 +138,15 @@ def unrolled_sheet(crown: Crown) -> Solid:
     return loft([at_height(outline, -GOLD_THICKNESS), at_height(outline, 0.0)], "brushed gold")
 
 
-def show(scene: bpy.types.Scene, elements: list[ga.Element]) -> None:
-    """Add what the edits have placed, on the sheets and on the standing crowns."""
-    building.add_elements(scene, elements)
+def set_gems(scene: bpy.types.Scene) -> None:
+    """Set a copy of every gem that lies on a sheet onto the standing crown that the sheet rolls up to."""
     holder = stage.collection(scene, "Set")
-    for element in elements:
-        crown = plan.crown(element.parent)
-        gem = add_asset(ASSETS[element.mesh], holder)
-        x, y = element.pose.position
-        mirror = Matrix.Diagonal((1.0, -1.0 if element.pose.mirrored else 1.0, 1.0, 1.0))
-        gem.matrix_world = place_on(crown, x, y, element.pose.angle) @ mirror
+    for lying in building.examples_and_results(scene):
+        x, y, _ = lying.location
+        crown = next(c for c in CROWNS if shapely.Polygon(c.outline()).buffer(0.01).contains(shapely.Point(x, y)))
+        gem = bpy.data.objects.new(lying.name, lying.data)
+        holder.objects.link(gem)
+        gem.matrix_world = place_on(crown, x, y, lying.rotation_euler.z) @ Matrix.Diagonal((*lying.scale, 1.0))
 
 
 def build(scene: bpy.types.Scene) -> np.ndarray:
@@ -178,4 +177,4 @@ def build(scene: bpy.types.Scene) -> np.ndarray:
 
 
 if __name__ == "__main__":
-    building.run(build, __doc__, plan.plan(), EDITS, show, elevation=38.0, lens=70.0, margin=0.03)
+    building.run(build, __doc__, EDITS, finish=set_gems, elevation=38.0, lens=70.0, margin=0.03)

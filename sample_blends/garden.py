@@ -11,8 +11,9 @@ import shapely
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-import geoanalogy as ga
+
 from sample_blends import building, stage
+from sample_blends.edits.edit import AnyEdit, GroupEdit
 from sample_blends.edits.garden import EDITS
 from sample_blends.library.meshes import add_solid
 from sample_blends.library.regions import flat, standing
@@ -154,10 +155,9 @@ def wall() -> Solid:
     return joined(parts)
 
 
-def show(scene: bpy.types.Scene, elements: list[ga.Element]) -> None:
-    """Add what the edits have placed: flowers stand on the soil of their beds."""
-    beds = {element.id for element in elements if element.label == "flower bed"}
-    building.add_elements(scene, elements, lambda element: SOIL if element.parent in beds else 0.0)
+def height(edit: AnyEdit) -> float:
+    """Flowers stand on the soil of their beds."""
+    return SOIL if isinstance(edit, GroupEdit) or edit.asset == "red flower" else 0.0
 
 
 def build(scene: bpy.types.Scene) -> np.ndarray:
@@ -177,4 +177,4 @@ def build(scene: bpy.types.Scene) -> np.ndarray:
 
 
 if __name__ == "__main__":
-    building.run(build, __doc__, plan.plan(), EDITS, show, elevation=46.0, lens=70.0, margin=0.01)
+    building.run(build, __doc__, EDITS, height, elevation=46.0, lens=70.0, margin=0.01)

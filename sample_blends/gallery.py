@@ -1,0 +1,51 @@
+"""Build every sample scene with its edits, replay it and draw it: ``python -m sample_blends.gallery``.
+
+The .blend files that the repository carries hold the plan, the examples and the recorded operations, without the
+results: replaying makes those. ``--rebuild`` records them anew.
+"""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent
+SCENES = ("apartment", "garden", "crowns")
+
+
+def rebuild(scene: str) -> None:
+    """Record a scene's edits and write its .blend; in a process of its own, as a file that is built holds nothing
+    else.
+    """
+    command = [sys.executable, str(HERE / f"{scene}.py"), "--edits", "--examples-only"]
+    subprocess.run([*command, "--output", str(HERE / f"{scene}.blend")], check=True)
+
+
+def replay(scene: str, folder: Path) -> None:
+    """Replay the operations of a scene's .blend, and write the scene and its picture."""
+    command = [sys.executable, str(ROOT / "batch.py"), "replay", str(HERE / f"{scene}.blend")]
+    outputs = ["--output", str(folder / f"{scene}.blend"), "--render", str(folder / f"{scene}.png")]
+    subprocess.run([*command, *outputs], check=True)
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("scenes", nargs="*", default=SCENES, help="which ones (default: all)")
+    parser.add_argument(
+        "--output", type=Path, default=ROOT / "output", help="folder for the replayed scenes and pictures"
+    )
+    parser.add_argument("--rebuild", action="store_true", help="record the edits anew before")
+    arguments = parser.parse_args()
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    for scene in arguments.scenes:
+        if arguments.rebuild:
+            rebuild(scene)
+        replay(scene, arguments.output)
+
+
+if __name__ == "__main__":
+    main()
