@@ -136,30 +136,38 @@ class Importance:
         result = {}
         for element, a in self.answers.items():
             at = (a.target, a.sample)
-            place, turn = [], []
+            same = side(element, seen).reshape(shape)[at] == a.inner[:, None]
+            place, turn, grows = [], [], []
             for k, relation in enumerate(a.relations):
-                place.append(self._off_level_set(relation, a, k, seen, shape))
+                place.append(self._off_level_set(relation, a, k, seen, shape, same))
                 turn.append(wrap(angle - reference(relation, seen).reshape(shape)[at] - a.turn[k][:, None]))
-            # At a contact, on either side of it, the side means nothing.
+                if uphill:
+                    away = relation.uphill(seen).reshape(shape)[at]
+                    grows.append(np.where(same, away, away + np.pi) if is_length(relation) else away)
+            # At a contact, on either side of it, the side means nothing but to the distance itself.
             near = (a.contact[:, None] < self.width) | (distance(element, seen).reshape(shape)[at] < self.width)
-            allowed = near | (side(element, seen).reshape(shape)[at] == a.inner[:, None])
-            grows = np.array([r.uphill(seen).reshape(shape)[at] for r in a.relations]) if uphill else None
-            result[element] = Misses(np.array(place), np.array(turn), allowed, grows)
+            result[element] = Misses(np.array(place), np.array(turn), near | same, np.array(grows) if uphill else None)
         return result
 
     def _off_level_set(
-        self, relation: Positional, a: Answers, k: int, seen: Observation, shape: tuple[int, ...]
+        self,
+        relation: Positional,
+        a: Answers,
+        k: int,
+        seen: Observation,
+        shape: tuple[int, ...],
+        same: NDArray[np.bool_],
     ) -> Array:
-        """Difference in value divided by the slope: distance in the plane."""
+        """Difference in value divided by the slope: distance in the plane. Beyond a boundary distances are negative."""
         at = (a.target, a.sample)
-        value = a.value[k] * self.scale if is_length(relation) else a.value[k]
-        miss = relation.value(seen).reshape(shape)[at] - value[:, None]
+        seen_value = relation.value(seen).reshape(shape)[at]
+        if is_length(relation):
+            return np.where(same, seen_value, -seen_value) - a.value[k][:, None] * self.scale
+        miss = seen_value - a.value[k][:, None]
         if relation.period is not None:
             period = relation.period(self.target.elements)[a.target][:, None]
             cyclic = np.isfinite(period[:, 0])
             miss[cyclic] = wrap(miss[cyclic], period[cyclic])
-        if is_length(relation):
-            return miss
         slope = np.broadcast_to(relation.slope(seen), (len(relation.value(seen)), len(seen.points))).reshape(shape)[at]
         # Where the value does not change (beyond a segment's ends) the level set is reached everywhere or nowhere.
         nowhere = np.where(np.abs(miss) > FLAT, FAR, 0.0)
