@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..tolerances import SMOOTH_TURN
+from .persistence import ClearRing, clear_ring
 from .polygon import Polygon
 
 
@@ -74,32 +74,8 @@ class Corner:
         return float(np.arctan2(self.after[1], self.after[0]) + self.opening / 2)
 
 
-def sharp_vertices(ring: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which vertices of a ring are corners: those whose edges turn by more than the smooth limit.
-
-    Parameters
-    ----------
-    ring : ndarray of shape (n, 2)
-        Vertices without a repeated last one.
-
-    Returns
-    -------
-    ndarray of shape (n,), bool
-
-    Examples
-    --------
-    >>> octagon = np.exp(2j * np.pi * np.arange(8) / 8)
-    >>> bool(sharp_vertices(np.stack([octagon.real, octagon.imag], 1)).all())
-    True
-    """
-    after = np.roll(ring, -1, axis=0) - ring
-    after = after / np.hypot(*after.T)[:, None]
-    before = np.roll(after, 1, axis=0)
-    return np.einsum("ij,ij->i", before, after) <= SMOOTH_TURN
-
-
 def ring_features(ring: NDArray[np.float64], edge_labels: tuple[str, ...] = ()) -> tuple[list[Segment], list[Corner]]:
-    """The segments and corners of one ring.
+    """The segments and corners of one ring, without the noise of its boundary.
 
     A change of edge label ends a segment as a corner does, but makes no corner: the wall with the door is a feature of
     its own even where it continues straight.
@@ -118,9 +94,12 @@ def ring_features(ring: NDArray[np.float64], edge_labels: tuple[str, ...] = ()) 
     corners : list of Corner
         In the ring's order.
     """
+    return _features(clear_ring(ring, edge_labels))
+
+
+def _features(clear: ClearRing) -> tuple[list[Segment], list[Corner]]:
+    ring, labels, sharp = clear.points, clear.labels, clear.sharp
     n = len(ring)
-    labels = edge_labels or ("",) * n
-    sharp = sharp_vertices(ring)
     ends = np.flatnonzero(sharp | np.array([labels[i - 1] != labels[i] for i in range(n)]))
     directions = np.roll(ring, -1, axis=0) - ring
     lengths = np.hypot(*directions.T)
@@ -163,5 +142,4 @@ def features_by_ring(polygon: Polygon) -> list[tuple[list[Segment], list[Corner]
     -------
     list of (list of Segment, list of Corner)
     """
-    labels = (polygon.segment_labels, *[()] * len(polygon.holes))
-    return [ring_features(ring, names) for ring, names in zip(polygon.rings, labels, strict=True)]
+    return [_features(clear) for clear in polygon.clear_rings]

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError
 from ..tolerances import LARGEST_COORDINATE, ZERO_LENGTH
+from .persistence import ClearRing, clear_ring
 
 
 def signed_area(ring: NDArray[np.float64]) -> float:
@@ -212,6 +213,12 @@ class Polygon:
         return (self.points, *self.holes)
 
     @cached_property
+    def clear_rings(self) -> tuple[ClearRing, ...]:
+        """The rings without the noise of their boundaries, which is what features are taken from."""
+        labels = (self.segment_labels, *[()] * len(self.holes))
+        return tuple(clear_ring(ring, names) for ring, names in zip(self.rings, labels, strict=True))
+
+    @cached_property
     def area(self) -> float:
         """Area in squared scene units, without the holes."""
         return abs(signed_area(self.points)) - sum(abs(signed_area(h)) for h in self.holes)
@@ -251,7 +258,8 @@ class Polygon:
         """
         if self.orientation is not None:
             return self.orientation
-        edges = np.roll(self.points, -1, axis=0) - self.points
+        outline = self.clear_rings[0].points
+        edges = np.roll(outline, -1, axis=0) - outline
         lengths = np.hypot(*edges.T)
         angles = np.arctan2(edges[:, 1], edges[:, 0]) % (np.pi / 2)
         # Twice two turns make a quarter turn one full turn, where lengths add up as vectors; the mean is then

@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from ..geometry.features import ring_features
+from ..geometry.features import features_by_ring
 from ..geometry.polygon import Polygon
 from .local_coordinates import BoundarySystem
 
@@ -77,7 +77,7 @@ def _best_shift(source: BoundarySystem, target: BoundarySystem) -> int:
 
 
 def _openings(polygon: Polygon) -> Array:
-    return np.array([c.opening for c in ring_features(polygon.points)[1]])
+    return np.array([c.opening for c in features_by_ring(polygon)[0][1]])
 
 
 def _frame_weight(source: Polygon, target: Polygon) -> float:

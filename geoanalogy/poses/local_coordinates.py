@@ -21,7 +21,6 @@ import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError
-from ..geometry.features import sharp_vertices
 from ..geometry.polygon import Polygon
 from ..relations.elements import Elements
 from ..relations.observation import Observation
@@ -67,13 +66,13 @@ class BoundarySystem:
 
     def __init__(self, polygon: Polygon) -> None:
         self.polygon = polygon
-        self.ring = polygon.points
+        self.ring = polygon.clear_rings[0].points
         self._outline = Polygon(polygon.points, label=polygon.label, orientation=polygon.orientation)
         steps = np.roll(self.ring, -1, axis=0) - self.ring
         lengths = np.hypot(*steps.T)
         self._length = lengths
         self._unit = steps / lengths[:, None]
-        self._smooth = ~sharp_vertices(self.ring)
+        self._smooth = ~polygon.clear_rings[0].sharp
         self._direction = np.arctan2(steps[:, 1], steps[:, 0])
         #: Turn of the boundary at each vertex, radians, positive to the left.
         self.turn = (self._direction - np.roll(self._direction, 1) + np.pi) % (2 * np.pi) - np.pi

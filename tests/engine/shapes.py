@@ -81,3 +81,23 @@ CATALOGUE = [
     ("octagon", regular(8), 8, 8),
     ("dodecagon", regular(12), 0, 1),
 ]
+
+
+def drawn(outline, noise, spacing, seed, across=True):
+    """An outline as a trembling hand or a scanner draws it.
+
+    Vertices every `spacing`, displaced by normal deviations of `noise`, both in units of the square root of the
+    area; `across` the line only, else in any direction.
+    """
+    rng = np.random.default_rng(seed)
+    following = np.roll(outline, -1, axis=0)
+    x, y = (outline - outline[0]).T
+    size = np.sqrt(abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2)
+    vertices = []
+    for a, b in zip(outline, following, strict=True):
+        length = np.hypot(*(b - a))
+        share = np.arange(count := max(1, round(length / (spacing * size)))) / count
+        normal = np.array([b[1] - a[1], a[0] - b[0]]) / length
+        tremor = rng.normal(size=(count, 1)) * normal if across else rng.normal(size=(count, 2))
+        vertices.append(a + share[:, None] * (b - a) + noise * size * tremor)
+    return np.vstack(vertices)

@@ -20,7 +20,8 @@ from shapes import (
 )
 
 from geoanalogy import Polygon
-from geoanalogy.geometry.features import polygon_features, ring_features, sharp_vertices
+from geoanalogy.geometry.features import polygon_features, ring_features
+from geoanalogy.geometry.persistence import sharp_vertices
 from geoanalogy.tolerances import SMOOTH_TURN
 
 
