@@ -1,6 +1,6 @@
 """Propagating a pose: the steps of section 4.2 (figure 4.4) put together."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from typing import Any
 
@@ -15,12 +15,12 @@ from ..tolerances import CONTAINED_SHARE
 from .arrangement import Arrangement, arrangement_of
 from .candidates import FOOTPRINT_STEP, find_candidates
 from .importance import Importance, wrap
-from .matching import senses
+from .matching import Sense, senses
 from .options import PoseOptions
 from .pose import Pose, footprint_ring
 from .query import Query
 from .refinement import refine
-from .results import PoseResults, PropagatedPose
+from .results import PoseResults, PropagatedPose, RelationShare
 from .validation import JUTTING_SHARE, Validation
 
 Array = NDArray[np.float64]
@@ -32,6 +32,9 @@ SAME_SIZE = 0.01
 #: Factor on the importance of answers in proportion to the room: of two equal answers the object at its own size is
 #: preferred.
 SCALED_FACTOR = 0.95
+
+#: Parents between two looks at how much is remembered: a plan of thousands of rooms must not be held at once.
+SETTLED_EVERY = 16
 
 #: Grid spacing at least, in half-widths of level sets: finer grids find nothing that the refinement would not.
 FINEST = 0.5
@@ -98,12 +101,14 @@ class PoseModel:
         generator of (float, str)
             Returns PoseResults.
         """
-        targets = [arrangement_of(scene, p) for p in self.targets(scene)]
+        targets = self.targets(scene)
         spacing = self._spacing(targets)
         found: list[PropagatedPose] = []
-        for i, target in enumerate(targets):
-            yield i / len(targets), f"placing in {target.parent.label or target.parent.id}"
-            found += self._place_in(target, spacing)
+        for i, polygon in enumerate(targets):
+            yield i / len(targets), f"placing in {polygon.label or polygon.id}"
+            found += self._place_in(arrangement_of(scene, polygon), spacing)
+            if i % SETTLED_EVERY == 0:
+                scene.memory.settle()
         scene.memory.settle()
         found.sort(key=lambda p: self._rank(p.importance, p.mirrored != self.pose.mirrored, p.pose.angle, p.parent))
         return PoseResults(found, self.footprint)
@@ -123,9 +128,9 @@ class PoseModel:
         free = not self.options.labels or self.options.other_parents
         return [p for p in scene.places() if free or p.label == self.parent.label]
 
-    def _spacing(self, targets: list[Arrangement]) -> float:
+    def _spacing(self, targets: list[Polygon]) -> float:
         """Distance between grid points in a parent of the example's size."""
-        area = sum(float(np.prod(t.parent.bounds[2:] - t.parent.bounds[:2])) for t in targets)
+        area = sum(float(np.prod(p.bounds[2:] - p.bounds[:2])) for p in targets)
         spacing = max(float(np.sqrt(area / self.options.cells)), FINEST * self.query.width)
         # In steps, so that examples of similar rooms share the fields.
         return float(2 ** (np.floor(2 * np.log2(spacing)) / 2)) if spacing > 0 else 1.0
@@ -228,9 +233,16 @@ class PoseModel:
             ):
                 continue
             pose = Pose((position[0], position[1]), angle % (2 * np.pi), importance.mirrored)
-            explain = partial(importance.explain, position, angle)
+            # Results outlive the fields of their parents, so they hold none of them.
+            surroundings = partial(Arrangement, target.parent, target.members)
+            explain = partial(self._explain, surroundings, importance.sense, importance.scale, position, angle)
             kept.append(PropagatedPose(pose, value, target.parent, importance.scale, explain))
         return kept
+
+    def _explain(
+        self, surroundings: Callable[[], Arrangement], sense: Sense, scale: float, position: Array, angle: float
+    ) -> tuple[RelationShare, ...]:
+        return Importance(self.query, surroundings(), sense, scale).explain(position, angle)
 
     def to_dict(self) -> dict[str, Any]:
         """The model as plain data: the example's surroundings, pose, footprint and options.

@@ -18,6 +18,7 @@ from strategies import Similarity
 
 import geoanalogy as ga
 from geoanalogy import Polygon, Pose, PoseOptions, PropagatedPose, Scene, propagate_pose
+from geoanalogy.poses.propagate import SETTLED_EVERY
 from geoanalogy.poses.results import PoseResults
 
 #: Shapes that are no image of themselves, and a place inside.
@@ -252,3 +253,20 @@ def test_relations_of_a_result_name_its_own_room():
     assert sum(s.weight for s in best.relations) == pytest.approx(best.importance, abs=1e-6)
     assert {s.target for s in best.relations} <= {"room 1", *(f"room 1 {m}" for m, _ in BEDROOM[1:])}
     assert best.relations[0].weight >= best.relations[-1].weight > 0
+
+
+def test_many_rooms_are_not_remembered_at_once():
+    scene = scene_of(BEDROOM, *(Similarity(shift=(10 * (k % 8), 10 * (k // 8))) for k in range(1, 64)))
+    scene.memory.limit = 2 << 20
+    held, largest = [], []
+
+    def progress(_fraction, _text):
+        sizes = [a.nbytes for a in scene.memory._kept.values()]
+        held.append(sum(sizes))
+        largest.append(max(sizes, default=0))
+        return True
+
+    results = propagate_pose(scene, BED_POSE, BED, PoseOptions(cells=200_000, candidates=1), progress)
+    assert {r.parent.id for r in results} >= {f"room {k}" for k in range(1, 64)}
+    assert max(held) <= scene.memory.limit + SETTLED_EVERY * max(largest)
+    assert max(held) < 64 * max(largest) / 2
