@@ -4,7 +4,7 @@ import bpy
 
 from ..geoanalogy.blender.evaluating import mark_stale
 from ..geoanalogy.blender.instances import clear_results
-from ..geoanalogy.blender.tree_store import remove_node
+from ..geoanalogy.blender.tree_editing import remove_node
 from .edit import Edit, active_operation, needs_operations
 
 

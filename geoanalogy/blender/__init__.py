@@ -2,8 +2,8 @@
 
 Its modules are imported by `register()`, so that reading this file asks for no Blender.
 
-Reading order: `names`; `planes`, `shapes` and `ground`, from objects to scenes; `footprints`; `tree_types` and
-`tree_store`, the operations tree in the .blend; `evaluating`, `lessons` and `recording`, from an example to its
+Reading order: `names`; `planes`, `shapes` and `ground`, from objects to scenes; `footprints`; `tree_types`,
+`tree_store` and `tree_editing`, the operations tree in the .blend; `evaluating`, `lessons` and `recording`, from an example to its
 results; `instances`, which shows them; `refresh` and `corrections`, which sift them; `replay`.
 """
 

@@ -39,7 +39,8 @@ from .evaluating import (
 from .footprints import pose_of, rest_of
 from .ground import label_of
 from .lessons import learn, learn_group, learn_row, scene_without
-from .tree_store import Placed, add_node, ensure_tree, free_id, leaf, placed_by, write_operation, write_placed
+from .tree_editing import free_id, leaf
+from .tree_store import Placed, add_node, ensure_tree, placed_by, write_operation, write_placed
 
 #: Least importance that is computed; the threshold of the slider lies above it.
 LEAST_IMPORTANCE = 0.1

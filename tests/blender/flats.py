@@ -114,3 +114,20 @@ def reload(path):
     """Save to a file and open it again."""
     bpy.ops.wm.save_as_mainfile(filepath=str(path))
     bpy.ops.wm.open_mainfile(filepath=str(path))
+
+
+def propagate(**settings):
+    """Propagate the active object, and return its operation."""
+    assert bpy.ops.geoanalogy.propagate("EXEC_DEFAULT", True, **settings) == {"FINISHED"}
+    return operations_tree().nodes.active
+
+
+def three_operations():
+    """A bed and two boxes, propagated one after the other; the names of the operations in order."""
+    rooms()
+    bed()
+    propagate()
+    for i, x in enumerate((0.2, 1.0)):
+        activate(box(f"Box {i}", (0.3, 0.3, 0.3), f"box {i}", at=(x, 1.7, 0)))
+        propagate()
+    return [node.name for node in bridge("tree_store").ordered_nodes(operations_tree())]

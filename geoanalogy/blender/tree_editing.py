@@ -1,0 +1,116 @@
+"""Editing the operations tree: names, ends of chains, taking nodes out and changing their order."""
+
+from collections.abc import Sequence
+
+import bpy
+
+from ..errors import InputError
+from .tree_store import sources_of
+
+
+def free_id(tree: bpy.types.NodeTree | None, wanted: str) -> str:
+    """A name that no node of a tree has.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree or None
+    wanted : str
+
+    Returns
+    -------
+    str
+        With a number behind it where need be.
+    """
+    taken = set() if tree is None else {node.name for node in tree.nodes}
+    names_ = [wanted, *(f"{wanted} {i}" for i in range(2, len(taken) + 3))]
+    return next(name for name in names_ if name not in taken)
+
+
+def leaf(nodes: Sequence[bpy.types.Node], active: bpy.types.Node | None) -> bpy.types.Node | None:
+    """The node that a recorded operation builds on: the active one where nothing follows it, else the last leaf.
+
+    Parameters
+    ----------
+    nodes : sequence of bpy.types.Node
+    active : bpy.types.Node or None
+
+    Returns
+    -------
+    bpy.types.Node or None
+        None before the first operation.
+    """
+    followed = {source.name for node in nodes for source, _ in sources_of(node)}
+    leaves = [node for node in nodes if node.name not in followed]
+    if active is not None and active in leaves:
+        return active
+    return leaves[-1] if leaves else None
+
+
+def remove_node(tree: bpy.types.NodeTree, node: bpy.types.Node) -> None:
+    """Remove a node; what it fed is fed by what fed it.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree
+    node : bpy.types.Node
+    """
+    sources = [link.from_socket for socket in node.inputs for link in socket.links]
+    targets = [link.to_socket for socket in node.outputs for link in socket.links]
+    tree.nodes.remove(node)
+    for target in targets:
+        for source in sources:
+            tree.links.new(source, target)
+
+
+def follower_of(node: bpy.types.Node) -> bpy.types.Node:
+    """The operation that builds on a node.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+
+    Returns
+    -------
+    bpy.types.Node
+
+    Raises
+    ------
+    InputError
+        Where there is none, or there are several.
+    """
+    followers = {link.to_node.name for socket in node.outputs for link in socket.links}
+    if len(followers) != 1:
+        raise InputError(f"not one operation follows on {node.name!r}, but {len(followers)}; there is nothing to swap")
+    return node.id_data.nodes[followers.pop()]
+
+
+def swap_with_source(tree: bpy.types.NodeTree, node: bpy.types.Node) -> None:
+    """Move a node before the one that it gets its input from.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree
+    node : bpy.types.Node
+
+    Raises
+    ------
+    InputError
+        Where it has no source, or several, or shares it: then there is no order to change.
+    """
+    sources = sources_of(node)
+    if len(sources) != 1:
+        raise InputError(f"the operation {node.name!r} does not follow on a single one; relink it in the node editor")
+    source = sources[0][0]
+    before = [link.from_socket for socket in source.inputs for link in socket.links]
+    after = [link.to_socket for socket in node.outputs for link in socket.links]
+    others = [link.to_node for socket in source.outputs for link in socket.links if link.to_node != node]
+    if others:
+        raise InputError(f"the tree branches after {source.name!r}; relink it in the node editor")
+    for link in [link for link in tree.links if {link.from_node, link.to_node} & {node, source}]:
+        tree.links.remove(link)
+    for socket in before:
+        tree.links.new(socket, node.inputs[0])
+    tree.links.new(node.outputs[0], source.inputs[0])
+    for socket in after:
+        tree.links.new(source.outputs[0], socket)
+    node.location, source.location = tuple(source.location), tuple(node.location)

@@ -1,0 +1,201 @@
+"""What cannot be done is said in one sentence, and the scene stays as it was."""
+
+import math
+
+import bpy
+import pytest
+from flats import (
+    ROOM,
+    activate,
+    bed,
+    box,
+    everything,
+    face,
+    link,
+    operations_tree,
+    propagate,
+    results,
+    rooms,
+    three_operations,
+)
+
+EXEC = "EXEC_DEFAULT"
+
+
+def test_operators_say_why_they_are_greyed_out():
+    ops = bpy.ops.geoanalogy
+    for name in ("propagate", "array", "scatter"):
+        with pytest.raises(RuntimeError, match="Click an object first"):
+            getattr(ops, name)(EXEC)
+    for name in ("replay", "clear", "accept", "reject", "reject_below", "forget_decisions", "explain"):
+        with pytest.raises(RuntimeError, match="There are no operations yet"):
+            getattr(ops, name)(EXEC)
+    for name in ("remove_operation", "move_operation", "mute_operation"):
+        with pytest.raises(RuntimeError, match="There are no operations yet"):
+            getattr(ops, name)(EXEC)
+    activate(face("a", ROOM))
+    bpy.ops.object.mode_set(mode="EDIT")
+    for name in ("set_label", "set_footprint", "make_polygons", "import_plan", "propagate", "transfer", "choose"):
+        with pytest.raises(RuntimeError, match="Leave to Object Mode first"):
+            getattr(ops, name)(EXEC)
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def nothing_selected():
+    rooms()
+    bed().select_set(False)
+
+
+def no_label():
+    rooms()
+    del bed()["ga_label"]
+
+
+def outside():
+    rooms()
+    bed().location = (50, 50, 0)
+
+
+def empty_scene():
+    bed()
+
+
+def upright():
+    rooms()
+    bed().rotation_euler = (0, math.radians(90), 0)
+
+
+def no_extent():
+    rooms()
+    activate(link(bpy.data.objects.new("Point", None), "point"))
+
+
+def a_result():
+    rooms()
+    bed()
+    propagate()
+    activate(results()[0])
+
+
+def crossing_room():
+    rooms()
+    face("Knot", [(0, 0), (2, 2), (2, 0), (0, 1)], "room", at=(0, 10, 0))
+    bed()
+
+
+def newer():
+    rooms()
+    bed()
+    propagate()["operation"]["schema"] = "geoanalogy.operations/99"
+
+
+def damaged():
+    rooms()
+    bed()
+    propagate()["operation"]["settings"]["threshold"] = "high"
+
+
+def bad_footprint():
+    rooms()
+    bed()["ga_footprint"] = [0.0, 1.0, 2.0]
+
+
+def ring_of_operations():
+    three_operations()
+    tree = operations_tree()
+    tree.links.new(tree.nodes[2].outputs[0], tree.nodes[0].inputs[0])
+
+
+def two_ends():
+    rooms()
+    activate(bed(), *(link(bpy.data.objects.new("End", None)) for _ in range(2)))
+
+
+def end_is_no_empty():
+    rooms()
+    activate(bed(), box("Stop", (1, 1, 1)))
+
+
+def far_from_each_other():
+    rooms()
+    activate(bed(), box("Other", (1, 1, 1), "bed", at=(6, 1, 0)))
+
+
+def mixed_group():
+    a_result()
+    activate(results()[0], bpy.data.objects["Bed"])
+
+
+def nothing_at_all():
+    pass
+
+
+PROPAGATE = lambda: bpy.ops.geoanalogy.propagate(EXEC, True)  # noqa: E731
+REPLAY = lambda: bpy.ops.geoanalogy.replay(EXEC, True)  # noqa: E731
+TRANSFER = lambda: bpy.ops.geoanalogy.transfer(EXEC, True)  # noqa: E731
+ARRAY = lambda **k: bpy.ops.geoanalogy.array(EXEC, True, **k)  # noqa: E731
+CASES = [
+    (nothing_selected, PROPAGATE, "nothing is selected; select the object"),
+    (no_label, PROPAGATE, "object 'Bed' has no label"),
+    (outside, PROPAGATE, "object 'Bed': the example at x 50, y 50 lies outside every polygon"),
+    (empty_scene, PROPAGATE, "the scene has no labelled outlines"),
+    (upright, PROPAGATE, "object 'Bed' has its x axis upright"),
+    (no_extent, PROPAGATE, "object 'Point' has no extent on the plan"),
+    (a_result, PROPAGATE, "is a result of 'bed' itself; select the example"),
+    (crossing_room, PROPAGATE, "polygon 'Knot' crosses or touches itself"),
+    (bad_footprint, PROPAGATE, "object 'Bed' has a footprint that is no list of x, y pairs"),
+    (newer, REPLAY, "the operation 'bed' was saved by a newer version"),
+    (newer, PROPAGATE, "the operation 'bed' was saved by a newer version"),
+    (damaged, REPLAY, "'high' is no finite number"),
+    (ring_of_operations, REPLAY, "the nodes form a circle"),
+    (two_ends, ARRAY, "several objects mark the array's end"),
+    (end_is_no_empty, ARRAY, "object 'Stop' is to mark the array's end, but is no empty"),
+    (outside, ARRAY, "object 'Bed': the example at x 50"),
+    (bed_in_rooms := lambda: (rooms(), bed()), lambda: ARRAY(spacing=0.0), "the spacing of the array is 0"),
+    (nothing_at_all, TRANSFER, "nothing is selected; select the objects to transfer"),
+    (far_from_each_other, TRANSFER, "select objects of one polygon"),
+    (mixed_group, TRANSFER, "select either results or objects of your own"),
+    (outside, TRANSFER, "object 'Bed' lies outside every polygon"),
+    (nothing_at_all, lambda: bpy.ops.geoanalogy.choose(EXEC, True), "nothing is selected"),
+    (nothing_at_all, lambda: bpy.ops.geoanalogy.set_label(EXEC, True, label="x"), "nothing is selected"),
+    (nothing_at_all, lambda: bpy.ops.geoanalogy.set_footprint(EXEC, True), "nothing is selected"),
+    (nothing_at_all, lambda: bpy.ops.geoanalogy.make_polygons(EXEC, True), "nothing is selected"),
+    (no_extent, lambda: bpy.ops.geoanalogy.set_footprint(EXEC, True, kind="outline"), "object 'Point' has no faces"),
+    (
+        lambda: activate(face("Knot", [(0, 0), (2, 2), (2, 0), (0, 1)])),
+        lambda: bpy.ops.geoanalogy.make_polygons(EXEC, True),
+        "polygon 'Knot' crosses or touches itself",
+    ),
+    (a_result, lambda: (activate(bpy.data.objects["Bed"]), bpy.ops.geoanalogy.accept(EXEC)), "no result is selected"),
+    (a_result, lambda: (activate(bpy.data.objects["Bed"]), bpy.ops.geoanalogy.explain(EXEC)), "no result is active"),
+]
+
+
+@pytest.mark.parametrize(("make", "act", "message"), CASES, ids=[f"{i} {m[:30]}" for i, (_, _, m) in enumerate(CASES)])
+def test_bad_input_is_named_and_leaves_the_scene_as_it_was(make, act, message):
+    make()
+    before = everything()
+    with pytest.raises(RuntimeError, match=message):
+        act()
+    assert everything() == before
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("plan.geojson", '{"type": "FeatureCollection", "features": [', "plan.geojson"),
+        ("plan.svg", "<svg><rect", "plan.svg"),
+        ("plan.dxf", "0\nSECTION\n2\nENTITIES\nnonsense", "plan.dxf"),
+        ("plan.txt", "hello", "plan.txt"),
+        ("empty.geojson", '{"type": "FeatureCollection", "features": []}', "empty"),
+    ],
+)
+def test_a_malformed_plan_is_named_and_leaves_the_scene_as_it_was(tmp_path, name, text, message):
+    path = tmp_path / name
+    path.write_text(text)
+    before = everything()
+    with pytest.raises(RuntimeError, match=message):
+        bpy.ops.geoanalogy.import_plan(EXEC, True, filepath=str(path))
+    assert everything() == before
+    with pytest.raises(RuntimeError, match="nowhere"):
+        bpy.ops.geoanalogy.import_plan(EXEC, True, filepath=str(tmp_path / "nowhere.geojson"))
