@@ -68,7 +68,7 @@ def test_set_label_labels_objects_collections_and_takes_labels_away():
 
 
 def test_set_label_is_undone():
-    item = activate(face("a", ROOM))
+    activate(face("a", ROOM))
     bpy.ops.ed.undo_push(message="scene")
     bpy.ops.geoanalogy.set_label(EXEC, True, label="bedroom")
     bpy.ops.ed.undo()
@@ -171,7 +171,7 @@ def test_mirrored_results_have_a_negative_y_scale():
     face("right", [(5, 0), (9, 0), (9, 3), (5, 3)], "room")
     face("right door", [(8.1, 0), (9, 0), (9, 0.9), (8.1, 0.9)], "door")
     wedge = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.2), (-0.5, 0.5)]
-    item = activate(face("Wedge", wedge, "wedge", at=(3.3, 2.4, 0.1)))
+    activate(face("Wedge", wedge, "wedge", at=(3.3, 2.4, 0.1)))
     propagate(mirror="YES")
     (found,) = results()
     assert found.scale[1] == pytest.approx(-1.0)

@@ -60,7 +60,7 @@ def test_the_threshold_sifts_in_a_reopened_file(tmp_path):
 def test_rejected_results_stay_away_and_come_back_when_forgotten():
     rooms()
     bed()
-    node = propagate()
+    propagate()
     every = placed()
     gone = activate(results()[0])
     key = gone["ga_key"]
