@@ -32,6 +32,10 @@ def surrounding_circle(z: Complex) -> tuple[complex, float]:
     ----------
     z : (n,) complex
 
+    Returns
+    -------
+    tuple[complex, float]
+
     Notes
     -----
     The diagonal of the bounding box, which the thesis takes as a unit, changes when a drawing is turned. Of many points

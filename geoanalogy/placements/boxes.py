@@ -10,31 +10,81 @@ ABREAST = 0.5
 
 
 def areas(boxes: Array) -> Array:
-    """Area of each box, shape (n,)."""
+    """Area of each box, shape (n,).
+
+    Parameters
+    ----------
+    boxes : ndarray
+
+    Returns
+    -------
+    ndarray
+    """
     size = boxes[..., 2:] - boxes[..., :2]
     return np.prod(size, axis=-1)
 
 
 def shared_areas(a: Array, b: Array) -> Array:
-    """Area shared by each pair of boxes, shape (n, m)."""
+    """Area shared by each pair of boxes, shape (n, m).
+
+    Parameters
+    ----------
+    a : ndarray
+    b : ndarray
+
+    Returns
+    -------
+    ndarray
+    """
     x = np.minimum(a[:, None, 2], b[None, :, 2]) - np.maximum(a[:, None, 0], b[None, :, 0])
     y = np.minimum(a[:, None, 3], b[None, :, 3]) - np.maximum(a[:, None, 1], b[None, :, 1])
     return np.clip(x, 0.0, None) * np.clip(y, 0.0, None)
 
 
 def overlap(a: Array, b: Array) -> Array:
-    """Shared area over the smaller area of each pair, shape (n, m)."""
+    """Shared area over the smaller area of each pair, shape (n, m).
+
+    Parameters
+    ----------
+    a : ndarray
+    b : ndarray
+
+    Returns
+    -------
+    ndarray
+    """
     return shared_areas(a, b) / np.minimum(areas(a)[:, None], areas(b)[None])
 
 
 def union_overlap(a: Array, b: Array) -> Array:
-    """Shared area over the area of the union of each pair, shape (n, m)."""
+    """Shared area over the area of the union of each pair, shape (n, m).
+
+    Parameters
+    ----------
+    a : ndarray
+    b : ndarray
+
+    Returns
+    -------
+    ndarray
+    """
     shared = shared_areas(a, b)
     return shared / (areas(a)[:, None] + areas(b)[None] - shared)
 
 
 def interval_overlap(a: Array, b: Array, axis: int) -> Array:
-    """Shared length over the length of the union of each pair of extents along an axis, shape (n, m)."""
+    """Shared length over the length of the union of each pair of extents along an axis, shape (n, m).
+
+    Parameters
+    ----------
+    a : ndarray
+    b : ndarray
+    axis : int
+
+    Returns
+    -------
+    ndarray
+    """
     shared = np.minimum(a[:, None, axis + 2], b[None, :, axis + 2]) - np.maximum(a[:, None, axis], b[None, :, axis])
     union = np.maximum(a[:, None, axis + 2], b[None, :, axis + 2]) - np.minimum(a[:, None, axis], b[None, :, axis])
     return np.clip(shared, 0.0, None) / union
@@ -45,6 +95,15 @@ def distances(a: Array, b: Array) -> Array:
 
     The gap between them, and a quarter of the way between their centres: it orders the elements that overlap a box,
     whose gap is zero.
+
+    Parameters
+    ----------
+    a : ndarray
+    b : ndarray
+
+    Returns
+    -------
+    ndarray
     """
     gap = np.maximum(np.maximum(b[None, :, :2] - a[:, None, 2:], a[:, None, :2] - b[None, :, 2:]), 0.0)
     way = (a[:, None, :2] + a[:, None, 2:] - b[None, :, :2] - b[None, :, 2:]) / 2

@@ -130,7 +130,16 @@ def nearest(boxes: Array, elements: Array, count: int) -> Array:
 
 
 def samples(boxes: Array) -> Array:
-    """The five samples of each box: the corners counter-clockwise from the least one, and the centre; (n, 5, 2)."""
+    """The five samples of each box: the corners counter-clockwise from the least one, and the centre; (n, 5, 2).
+
+    Parameters
+    ----------
+    boxes : ndarray
+
+    Returns
+    -------
+    ndarray
+    """
     x0, y0, x1, y1 = boxes.T
     return np.stack(
         [

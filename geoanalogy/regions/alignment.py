@@ -91,6 +91,10 @@ def align(contours: Contours, sources: list[Run], targets: list[Run], mirrored: 
         Whether mirror images are wanted.
     most : int
         Alignments returned at most, best first.
+
+    Returns
+    -------
+    list[Alignment]
     """
     longest = float(lengths(contours, sources[:1])[0])
     out: list[Alignment] = []

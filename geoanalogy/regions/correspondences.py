@@ -74,6 +74,10 @@ def described(drawing: Drawing, query: Query, mirrored: bool, largest_scale: flo
         Whether reflected targets are wanted.
     largest_scale : float
         Correspondences that scale by more than this, up or down, are left out.
+
+    Returns
+    -------
+    Correspondences
     """
     contours: Contours = drawing.contours
     parts = [Correspondences(*(np.zeros(0, t) for t in (complex, complex, complex, bool, float)))]
@@ -104,7 +108,16 @@ def described(drawing: Drawing, query: Query, mirrored: bool, largest_scale: flo
 
 
 def aligned(alignments: list[Alignment]) -> Correspondences:
-    """Correspondences of consecutive pairs of alignments, as confident as their alignment is good."""
+    """Correspondences of consecutive pairs of alignments, as confident as their alignment is good.
+
+    Parameters
+    ----------
+    alignments : list[Alignment]
+
+    Returns
+    -------
+    Correspondences
+    """
     parts = [Correspondences(*(np.zeros(0, t) for t in (complex, complex, complex, bool, float)))]
     best = max((a.score for a in alignments), default=1.0)
     for a in alignments:

@@ -65,5 +65,15 @@ class Course:
 
 
 def lengths(contours: Contours, runs: list[Run]) -> Floats:
-    """Arc length of each stretch."""
+    """Arc length of each stretch.
+
+    Parameters
+    ----------
+    contours : Contours
+    runs : list[Run]
+
+    Returns
+    -------
+    Floats
+    """
     return np.array([contours.weight[run.indices].sum() for run in runs])

@@ -57,7 +57,16 @@ _kept: WeakKeyDictionary[Drawing, list[Descriptors]] = WeakKeyDictionary()
 
 
 def descriptors_of(drawing: Drawing) -> list[Descriptors]:
-    """The descriptors of a drawing, one entry per turn; computed once and kept as long as the drawing."""
+    """The descriptors of a drawing, one entry per turn; computed once and kept as long as the drawing.
+
+    Parameters
+    ----------
+    drawing : Drawing
+
+    Returns
+    -------
+    list[Descriptors]
+    """
     if drawing not in _kept:
         contours = drawing.contours
         every = np.ones(len(contours.points), bool)
@@ -66,7 +75,16 @@ def descriptors_of(drawing: Drawing) -> list[Descriptors]:
 
 
 def samples_of(contours: Contours) -> Indices:
-    """Where the descriptors stand: denser where a line turns, at most about MOST_SAMPLES."""
+    """Where the descriptors stand: denser where a line turns, at most about MOST_SAMPLES.
+
+    Parameters
+    ----------
+    contours : Contours
+
+    Returns
+    -------
+    ndarray of int
+    """
     spacing, turn = SAMPLE_SPACING, SAMPLE_TURN
     index = contours.samples(spacing, turn, LEAST_SAMPLES)
     while len(index) > MOST_SAMPLES and turn < np.pi:
@@ -86,6 +104,10 @@ def walks(contours: Contours, index: Indices, turn: float) -> Floats:
         Points.
     turn : float
         Radians.
+
+    Returns
+    -------
+    Floats
     """
     out = np.full(len(index), np.nan)
     for k in np.unique(contours.line[index]):
@@ -123,6 +145,10 @@ def describe(contours: Contours, index: Indices, turn: float, visible: NDArray[n
         Total turn that sets the scale, radians.
     visible : (len(contours.points),) bool
         Which points of the lines the bins see: a query sees its own lines only.
+
+    Returns
+    -------
+    Descriptors
     """
     walk = walks(contours, index, turn)
     index, walk = index[np.isfinite(walk)], walk[np.isfinite(walk)]
@@ -164,6 +190,10 @@ def confidences(query: Descriptors, target: Descriptors, half_turn: bool, mirror
         Whether the target is taken the other way round: a tangent has no sign, both orientations are tested.
     mirrored : bool
         Whether the target is reflected across its tangent.
+
+    Returns
+    -------
+    NDndarray[np.float32]
 
     Notes
     -----

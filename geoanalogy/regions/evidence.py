@@ -73,13 +73,32 @@ class Evidence:
 
 
 def support(fit: Fit) -> Floats:
-    """Evidence at each sample, (s,): 1 where its counterpart lies on its image and runs along it, 0 without one."""
+    """Evidence at each sample, (s,): 1 where its counterpart lies on its image and runs along it, 0 without one.
+
+    Parameters
+    ----------
+    fit : Fit
+
+    Returns
+    -------
+    Floats
+    """
     out = np.exp(-0.5 * (fit.distance / NEAR) ** 2 - 0.5 * (fit.tilt / ASKEW) ** 2)
     return np.where(fit.counterpart >= 0, out, 0.0)
 
 
 def node_support(fitter: Fitter, found: Floats) -> Floats:
-    """Evidence at each node, (m,): that of the samples near it."""
+    """Evidence at each node, (m,): that of the samples near it.
+
+    Parameters
+    ----------
+    fitter : Fitter
+    found : Floats
+
+    Returns
+    -------
+    Floats
+    """
     gap = np.abs(fitter.nodes.at[:, None] - fitter.samples.points[None])
     weight = np.exp(-0.5 * (gap / (2.0 * fitter.nodes.spacing)) ** 2) + 1e-12
     return (weight @ found) / weight.sum(1)
@@ -95,6 +114,10 @@ def evidence(fitter: Fitter, query: Query, fit: Fit, joint_tolerance: float = 0.
     fit : Fit
     joint_tolerance : float
         Share, from 0 to 1, of half of the pairs of nodes whose gradients are forgiven, largest first.
+
+    Returns
+    -------
+    Evidence
 
     Notes
     -----

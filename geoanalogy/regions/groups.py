@@ -24,7 +24,17 @@ MOST_GROUPS = 24
 
 
 def groups(target: Target, gap: float) -> list[NDArray[np.intp]]:
-    """Sets of points of lines that are nearer than a gap to each other, most line first."""
+    """Sets of points of lines that are nearer than a gap to each other, most line first.
+
+    Parameters
+    ----------
+    target : Target
+    gap : float
+
+    Returns
+    -------
+    list[NDndarray[np.intp]]
+    """
     stride = max(1, int(0.25 * gap / float(np.median(target.spacing))))
     some = np.arange(0, len(target.points), stride)
     xy = np.stack([target.points[some].real, target.points[some].imag], 1)

@@ -59,6 +59,10 @@ def similarities(nodes: Nodes, refined: Refined, joint_tolerance: float = 0.0) -
     joint_tolerance : float
         0 to 1: similarities are raised towards 1 by this share of the way that the strain alone allows, so that jumps
         of rotation and scale, as at a joint, do not part a region.
+
+    Returns
+    -------
+    csr_array
     """
     order = np.argsort(refined.node, kind="stable")
     first = np.searchsorted(refined.node[order], np.arange(len(nodes.at) + 1))
@@ -231,6 +235,17 @@ def branched(cluster: Cluster, nodes: Nodes, refined: Refined, alike: csr_array)
     Linkage gives every correspondence to one set, so that of two branches with a common trunk only one gets the trunk
     (section 6.2: branching shapes are branching surfaces in transformation space). The other one borrows it here, query
     point by query point, best agreement with its members first.
+
+    Parameters
+    ----------
+    cluster : Cluster
+    nodes : Nodes
+    refined : Refined
+    alike : csr_array
+
+    Returns
+    -------
+    Cluster
     """
     members = list(cluster.members)
     free = np.ones(len(nodes.at), bool)

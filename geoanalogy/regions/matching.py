@@ -178,7 +178,18 @@ def match_regions(
 
 
 def matching(drawing: Drawing, query: ArrayLike, options: RegionOptions | None = None) -> Stepper[Matches]:
-    """The stepper of `match_regions`."""
+    """The stepper of `match_regions`.
+
+    Parameters
+    ----------
+    drawing : Drawing
+    query : ndarrayLike
+    options : RegionOptions or None
+
+    Returns
+    -------
+    Stepper[Matches]
+    """
     options = options or RegionOptions()
     yield 0.0, "reading the query"
     region = Query.of(drawing, query, options)

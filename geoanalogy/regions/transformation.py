@@ -106,6 +106,10 @@ class TransformationFunction:
 def smoothness(nodes: Nodes) -> tuple[Complex, Complex]:
     """Two quadratic forms (2m, 2m) that measure how a function changes between neighbouring nodes.
 
+    Parameters
+    ----------
+    nodes : Nodes
+
     Returns
     -------
     strain, bend : (2m, 2m) complex

@@ -64,6 +64,10 @@ def transformation_space(drawing: Drawing, matches: Matches, least: float = 0.0)
     least : float
         Correspondences of less magnitude are left out.
 
+    Returns
+    -------
+    TransformationSpace
+
     Notes
     -----
     A correspondence lies on a match's function where their transformations of the query point differ by less than one
