@@ -24,13 +24,14 @@ import geoanalogy as ga
 from geoanalogy.placements import calibration, survey
 from geoanalogy.placements.arrangement import arrangement_of
 from geoanalogy.placements.boxes import union_overlap
-from geoanalogy.placements.evidence import AMONG, SINGLE
+from geoanalogy.placements.candidates import predictions
+from geoanalogy.placements.evidence import AMONG, SINGLE, Company
 from geoanalogy.placements.selection import rescaled, useful_cut, without_overlaps
 
 TABLE = pathlib.Path(__file__).resolve().parent.parent / "geoanalogy" / "placements" / "calibration_table.py"
 PLACED = ("window", "sill", "balcony", "blind", "cornice", "door", "shop", "deco", "pillar")
 RIGHT = 0.5
-ROOM_CASES, DRAWN_CASES = 9, 120
+ROOM_CASES, DRAWN_CASES = 15, 120
 
 
 def ring(box):
@@ -235,7 +236,7 @@ def collected(cases):
             arrangement = arrangement_of(scene, parent, 0.0)
             drawn = model._drawn(arrangement, model.shown_in(arrangement))[0]
             here = truth[(union_overlap(truth, arrangement.parent_box[None])[:, 0] > 0)]
-            boxes, quick = survey.glance(lesson, arrangement, drawn)
+            boxes, quick = survey.glance(lesson, arrangement, drawn, *predictions(lesson, arrangement))
             quick_iou = union_overlap(boxes, truth).max(axis=1)
             some = np.flatnonzero((quick_iou >= 0.4) | (np.arange(len(boxes)) % 8 == 0))
             seen = survey.survey(lesson, arrangement, drawn, drawn)
@@ -244,7 +245,7 @@ def collected(cases):
                     "quick": quick[some],
                     "quick_iou": quick_iou[some],
                     "boxes": seen.boxes,
-                    "company": seen.company,
+                    "anchors": seen.company.anchors,
                     "single": seen.single,
                     "among": seen.among,
                     "present": drawn,
@@ -318,7 +319,7 @@ def settle_evidence(part, look):
     part["settled"] = np.hstack(
         [
             look.value(first)[:, None],
-            part["company"].evidence(look.certainty(first)),
+            Company(part["boxes"], part["present"], part["anchors"]).evidence(look.certainty(first)),
         ]
     )
 

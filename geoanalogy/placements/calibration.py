@@ -23,6 +23,7 @@ AGAINST = frozenset(
     (
         "shortfall",
         "broken habit",
+        "unexplained",
         "missed anchor",
         "missed along x",
         "missed along y",

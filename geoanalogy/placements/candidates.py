@@ -185,8 +185,8 @@ def most_predicted(low: Array, high: Array, cell: float, count: int) -> Array:
     ndarray of shape (at most count, 2)
         Their mean low and high edges.
     """
-    keys = np.round(np.stack([low, high], axis=1) / cell).astype(np.int64)
-    _, group, number = np.unique(_mixed(keys), return_inverse=True, return_counts=True)
+    cells = _cells(np.stack([low, high], axis=1), cell)
+    _, group, number = np.unique(cells, return_inverse=True, return_counts=True)
     mean = np.stack([np.bincount(group, low), np.bincount(group, high)], axis=1) / number[:, None]
     order = np.argsort(-number, kind="stable")
     if len(order) > count:
@@ -196,13 +196,15 @@ def most_predicted(low: Array, high: Array, cell: float, count: int) -> Array:
     return mean[order]
 
 
-def distinct(boxes: Array, cell: Array) -> Array:
+def distinct(boxes: Array, repeats: NDArray[np.intp], cell: Array) -> Array:
     """One box of each cell of a grid in (x0, y0, x1, y1): the one predicted most often, else nearest to the mean.
 
     Parameters
     ----------
     boxes : ndarray of shape (n, 4)
         From the parent's centre, so that a mirrored drawing has mirrored cells.
+    repeats : ndarray of shape (n,), int
+        How often each was predicted.
     cell : ndarray of shape (4,)
 
     Returns
@@ -211,16 +213,16 @@ def distinct(boxes: Array, cell: Array) -> Array:
     """
     if not len(boxes):
         return boxes
-    _, exact, repeats = np.unique(
-        _mixed(np.round(boxes / (EQUAL * cell)).astype(np.int64)), return_inverse=True, return_counts=True
-    )
-    _, group, number = np.unique(
-        _mixed(np.round(boxes / cell).astype(np.int64)), return_inverse=True, return_counts=True
-    )
+    _, group, number = np.unique(_cells(boxes, cell), return_inverse=True, return_counts=True)
     mean = np.stack([np.bincount(group, column) for column in boxes.T], axis=1) / number[:, None]
     off = np.abs(boxes - mean[group]).sum(axis=1)
-    order = np.lexsort((off, -repeats[exact], group))
+    order = np.lexsort((off, -repeats, group))
     return boxes[order[np.concatenate([[0], np.cumsum(number)[:-1]])]]
+
+
+def _cells(values: Array, cell: Array | float) -> NDArray[np.int64]:
+    """The cell of a grid that each row of values lies in, as one integer."""
+    return _mixed(np.round(values / cell).astype(np.int64))
 
 
 def _mixed(keys: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -231,8 +233,40 @@ def _mixed(keys: NDArray[np.int64]) -> NDArray[np.int64]:
     return mixed
 
 
-def proposals(lesson: Lesson, arrangement: Arrangement, present: Array) -> Array:
-    """Every candidate that is worth a look.
+def predictions(lesson: Lesson, arrangement: Arrangement) -> tuple[Array, NDArray[np.intp]]:
+    """The boxes that elements predict, each once.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    arrangement : Arrangement
+        The target.
+
+    Returns
+    -------
+    boxes : ndarray of shape (n, 4)
+        With positive sides, of about the examples' size; in the arrangement's frame.
+    repeats : ndarray of shape (n,), int
+        How often each was predicted.
+    """
+    found = predicted(lesson, arrangement)
+    if lesson.options.mirrored:
+        found = np.hstack([np.minimum(found[:, :2], found[:, 2:]), np.maximum(found[:, :2], found[:, 2:])])
+    sizes = lesson.sizes[lesson.positive]
+    found = found[_plausible(found, sizes)]
+    cells = _cells(found - _centre(arrangement), EQUAL * CANDIDATE_CELL * np.tile(sizes.mean(axis=0), 2))
+    _, first, repeats = np.unique(cells, return_index=True, return_counts=True)
+    return found[first], repeats
+
+
+def _centre(arrangement: Arrangement) -> Array:
+    return np.tile((arrangement.parent_box[:2] + arrangement.parent_box[2:]) / 2, 2)
+
+
+def proposals(
+    lesson: Lesson, arrangement: Arrangement, present: Array, boxes: Array, repeats: NDArray[np.intp]
+) -> Array:
+    """Every candidate that is worth a look: the predictions that differ, and crossings of their extents.
 
     Parameters
     ----------
@@ -241,22 +275,20 @@ def proposals(lesson: Lesson, arrangement: Arrangement, present: Array) -> Array
         The target.
     present : ndarray of shape (m, 4)
         Positive examples that were drawn in this very arrangement.
+    boxes, repeats : ndarray of shape (n, 4) and (n,)
+        See `predictions`.
 
     Returns
     -------
-    ndarray of shape (n, 4)
-        With positive sides, of about the examples' size; in the arrangement's frame.
+    ndarray of shape (p, 4)
     """
-    centre = np.tile((arrangement.parent_box[:2] + arrangement.parent_box[2:]) / 2, 2)
-    found = predicted(lesson, arrangement) - centre
-    if lesson.options.mirrored:
-        found = np.hstack([np.minimum(found[:, :2], found[:, 2:]), np.maximum(found[:, :2], found[:, 2:])])
-    sizes = lesson.sizes[lesson.positive]
-    found = found[_plausible(found, sizes)]
-    size = sizes.mean(axis=0)
+    centre = _centre(arrangement)
+    size = lesson.sizes[lesson.positive].mean(axis=0)
     cell = CANDIDATE_CELL * np.tile(size, 2)
-    found = distinct(found, cell)
-    return distinct(np.concatenate([found, crossed(found, present - centre, size)]), cell) + centre
+    found = distinct(boxes - centre, repeats, cell)
+    more = crossed(found, present - centre, size)
+    first = np.repeat([1, 0], [len(found), len(more)])  # what was predicted stays as it is
+    return distinct(np.concatenate([found, more]), first, cell) + centre
 
 
 def crossed(boxes: Array, present: Array, size: Array) -> Array:

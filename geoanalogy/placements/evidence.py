@@ -3,11 +3,13 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from ..relations.table import Kind
 from .arrangement import Arrangement
 from .boxes import distances, interval_overlap, overlap
 from .candidates import rhythm
 from .lesson import Lesson, Match, coverage
 from .signature import BOX, PARENT_BOX, Signature
+from .similarity import SIGMA
 
 Array = NDArray[np.float64]
 
@@ -16,9 +18,10 @@ SINGLE = (
     "similarity",  # to the most similar example
     "mean similarity",
     "against cohesion",  # similarity over what examples have with each other
-    "shortfall",  # how far it is below that, against how far that is below 1
+    "shortfall",  # how far it is below that, where examples are alike
     "habit",  # how well its edges keep to what they keep to most closely among the examples
     "broken habit",  # by how much the worst edge does not
+    "unexplained",  # by how much its worst edge keeps to nothing that the examples agree in exactly
     "best anchor",  # agreement with the group of elements that agrees best, times its reliability
     "anchors",  # mean agreement of all groups, by reliability
     "sure anchors",  # the same by squared reliability
@@ -32,6 +35,8 @@ SINGLE = (
     "in parent",  # agreement with the parent's box, times its reliability
     "in parent along x",
     "in parent along y",
+    "as in like parents",  # similarity to examples, the more alike the parents the more they count
+    "share as in like parents",  # the same for the shares of the parent's box alone
     "shape",  # logarithmic difference in size to the example most alike
     "beyond shapes",  # how far its sides are beyond those of the examples, and as much again as these differ
     "covered",  # more of it is covered by elements of some label than of any example
@@ -53,6 +58,10 @@ SINGLE = (
     "number",  # logarithm of the number of examples
 )
 
+#: Logarithmic differences in aspect and in size at which two parents are still alike.
+LIKE_ASPECT, LIKE_SIZE = 0.15, 0.5
+#: Similarity among examples from which they are somewhat alike, and all but equal.
+ALIKE = (0.7, 0.9)
 #: How much less similar than examples are to each other a place may always be, in the unit of similarities.
 SLACK = 0.1
 
@@ -107,7 +116,8 @@ def single_evidence(
     rx, ry, rj = reliable[of_boxes, 0], reliable[of_boxes, 1], reliable[:, 2]
     parent = matches[PARENT_BOX]
     in_parent = lesson.reliability[PARENT_BOX]
-    habit = lesson.habitual(seen)
+    habit, explained = lesson.habitual(seen)
+    like = _like_parents(lesson, arrangement)
     size = np.log(boxes[:, 2:] - boxes[:, :2])
     taught_size = np.log(lesson.sizes[p])
     covered, uncovered, touched = _overlaps(lesson, arrangement, boxes)
@@ -120,9 +130,10 @@ def single_evidence(
         "similarity": best,
         "mean similarity": similarity.mean(axis=1),
         "against cohesion": np.minimum(best / max(lesson.cohesion, 0.05), 2.0),
-        "shortfall": np.clip((lesson.cohesion - best) / (1.0 - lesson.cohesion + SLACK), 0.0, 3.0),
+        "shortfall": _shortfall(best, lesson.cohesion),
         "habit": habit.mean(axis=(1, 2)),
         "broken habit": 1.0 - habit.min(axis=(1, 2), initial=1.0),
+        "unexplained": 1.0 - explained.min(axis=(1, 2), initial=1.0),
         "best anchor": (joint * rj).max(axis=1, initial=0.0),
         "anchors": joint @ rj / max(rj.sum(), 1e-9),
         "sure anchors": joint @ rj**2 / max((rj**2).sum(), 1e-9),
@@ -136,6 +147,8 @@ def single_evidence(
         "in parent": parent.joint[:, p].max(axis=1) * in_parent[2],
         "in parent along x": parent.along_x[:, p].max(axis=1) * in_parent[0],
         "in parent along y": parent.along_y[:, p].max(axis=1) * in_parent[1],
+        "as in like parents": similarity @ like,
+        "share as in like parents": _shares(lesson, seen) @ like,
         "shape": np.minimum(np.hypot(*(size[:, None] - taught_size[None]).T).T.min(axis=1), 1.0),
         "beyond shapes": np.minimum(np.hypot(*_beyond(size, taught_size).T), 1.0),
         "covered": covered,
@@ -165,6 +178,36 @@ def _rhythm(boxes: Array, present: Array, axis: int) -> Array:
     if not len(beats):
         return np.zeros(len(boxes))
     return interval_overlap(boxes, np.repeat(beats, 2, axis=1), axis).max(axis=1)
+
+
+def _like_parents(lesson: Lesson, arrangement: Arrangement) -> Array:
+    """How much each positive example counts in a parent, shape (m,), by the proportions of its own; the sum is 1."""
+    edges = lesson.kept.boxes[PARENT_BOX][lesson.positive, 0]
+    taught = np.log(edges[:, :, 0, 0] - edges[:, :, 0, 1])  # width and height: from the minimum less from the maximum
+    here = np.log(arrangement.parent_box[2:] - arrangement.parent_box[:2])
+    off = taught - here
+    aspect, size = off[:, 0] - off[:, 1], off.mean(axis=1)
+    value = -0.5 * ((aspect / LIKE_ASPECT) ** 2 + (size / LIKE_SIZE) ** 2)
+    weight = np.exp(value - value.max())
+    return weight / weight.sum()
+
+
+def _shares(lesson: Lesson, seen: Signature) -> Array:
+    """Agreement of the edges, as shares of the parent's box, with those of each positive example; (n, m)."""
+    here = seen.boxes[PARENT_BOX][:, 0][:, :, [0, 2], 3]
+    taught = lesson.kept.boxes[PARENT_BOX][lesson.positive, 0][:, :, [0, 2], 3]
+    width = lesson.options.tau * SIGMA[Kind.RATIO]
+    return np.exp(-0.5 * ((here[:, None] - taught[None]) / width) ** 2).mean(axis=(2, 3))
+
+
+def _shortfall(similarity: Array, cohesion: float) -> Array:
+    """By how much less similar candidates are than examples to each other, in units of how far these are from 1.
+
+    Where examples are all but equal, whatever is meant is equal to them too, and half of their relations are too few;
+    where they differ it tells nothing.
+    """
+    alike = np.clip((cohesion - ALIKE[0]) / (ALIKE[1] - ALIKE[0]), 0.0, 1.0)
+    return alike * np.clip((cohesion - similarity) / (1.0 - cohesion + SLACK), 0.0, 4.0)
 
 
 def _beyond(size: Array, taught: Array) -> Array:

@@ -351,7 +351,7 @@ class Lesson:
         whole = sum(weight.sum(axis=2, keepdims=True) for _, _, weight in found.values())
         return {key: (middle, scatter, weight / whole) for key, (middle, scatter, weight) in found.items()}
 
-    def habitual(self, seen: Signature) -> Array:
+    def habitual(self, seen: Signature) -> tuple[Array, Array]:
         """How well each edge of boxes keeps to what it keeps to among the examples.
 
         Parameters
@@ -361,20 +361,27 @@ class Lesson:
 
         Returns
         -------
-        ndarray of shape (n, 2, 2)
-            By axis and edge (low, high), between 0 and 1.
+        kept : ndarray of shape (n, 2, 2)
+            By axis and edge (low, high), between 0 and 1: in all coordinates, by their weights.
+        explained : ndarray of shape (n, 2, 2)
+            In the best of the coordinates that the examples agree in exactly; 1 where there is none. Whatever is drawn
+            by a rule, however many rules would do, keeps to one of them.
         """
         n = len(seen.boxes[PARENT_BOX])
-        kept = np.zeros((n, 2, 2))
+        kept, explained, exact = np.zeros((n, 2, 2)), np.zeros((n, 2, 2)), np.zeros((2, 2), dtype=bool)
         for key, (middle, scatter, weight) in self.habits.items():
+            tight = scatter <= HABIT_FLOOR * self.widths[:2, None, None]
+            exact |= tight.any(axis=2)
             if key not in seen.boxes:
                 continue
             edges = seen.boxes[key][:, 0][:, :, [0, 2]]
             off = edges - middle
             off[..., 3] *= edges[..., 0] - edges[..., 1]
             width = scatter + self.widths[:2, None, None]
-            kept += np.nan_to_num(weight * np.exp(-0.5 * (off / width) ** 2)).sum(axis=3)
-        return kept
+            agreement = np.nan_to_num(np.exp(-0.5 * (off / width) ** 2))
+            kept += (weight * agreement).sum(axis=3)
+            explained = np.maximum(explained, (tight * agreement).max(axis=3))
+        return kept, np.where(exact, explained, 1.0)
 
     @cached_property
     def one_each(self) -> bool:

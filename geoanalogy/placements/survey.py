@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from .arrangement import Arrangement
 from .boxes import interval_overlap, union_overlap
 from .calibration import ABROAD, AT_HOME
-from .candidates import crossings, proposals, rhythm, rows_of
+from .candidates import crossings, predictions, proposals, rhythm, rows_of
 from .evidence import Company, anchors_of, single_evidence
 from .lesson import Lesson
 from .selection import thin, without_overlaps
@@ -19,7 +19,9 @@ Array = NDArray[np.float64]
 #: Candidates that get a full look, and that may be added when rows and columns are continued.
 LOOKED_AT, GROWN = 300, 150
 #: Proposals near a result that are looked at to refine it.
-VARIANTS = 10
+VARIANTS = 12
+#: Difference in similarity, a few times what float32 leaves of it, below which two boxes are alike.
+EQUALLY_ALIKE = 1e-4
 #: Overlap from which candidates are of the same place.
 SAME_PLACE = 0.6
 #: Overlap from which two candidates are the same.
@@ -47,10 +49,10 @@ class Survey:
         Evidence of each candidate, among the others by similarity, and by certainty.
     certainty : ndarray of shape (n,)
         How surely each is meant, 0 to 1.
-    proposed : ndarray of shape (p, 4)
-        All proposals, of which the candidates are the distinct ones.
-    promise : ndarray of shape (p,)
-        Similarity of each proposal at a glance.
+    predicted : ndarray of shape (p, 4)
+        All that elements predict; the candidates are those that differ.
+    repeats : ndarray of shape (p,), int
+        How often each is predicted.
     """
 
     boxes: Array
@@ -60,11 +62,13 @@ class Survey:
     among: Array
     settled: Array
     certainty: Array
-    proposed: Array
-    promise: Array
+    predicted: Array
+    repeats: NDArray[np.intp]
 
 
-def glance(lesson: Lesson, arrangement: Arrangement, present: Array) -> tuple[Array, Array]:
+def glance(
+    lesson: Lesson, arrangement: Arrangement, present: Array, predicted: Array, repeats: NDArray[np.intp]
+) -> tuple[Array, Array]:
     """All proposals and quick evidence on them, from the nearest element of every label alone.
 
     Parameters
@@ -73,13 +77,15 @@ def glance(lesson: Lesson, arrangement: Arrangement, present: Array) -> tuple[Ar
     arrangement : Arrangement
     present : ndarray of shape (m, 4)
         Positive examples drawn here.
+    predicted, repeats : ndarray of shape (p, 4) and (p,)
+        See `predictions`.
 
     Returns
     -------
     boxes : ndarray of shape (n, 4)
     evidence : ndarray of shape (n, len(SINGLE))
     """
-    boxes = proposals(lesson, arrangement, present)
+    boxes = proposals(lesson, arrangement, present, predicted, repeats)
     seen = signature(arrangement, boxes, 1, lesson.labels, outlines=not arrangement.parent_fills_box)
     return boxes, single_evidence(lesson, arrangement, boxes, seen, lesson.match(seen, 1), present)
 
@@ -101,7 +107,8 @@ def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
     Survey
     """
     judge = AT_HOME if len(present) else ABROAD
-    proposed, quick = glance(lesson, arrangement, present)
+    predicted, repeats = predictions(lesson, arrangement)
+    proposed, quick = glance(lesson, arrangement, present, predicted, repeats)
     boxes = _without_shown(proposed[thin(proposed, judge.glance.certainty(quick), SAME, LOOKED_AT)], shown)
     similar, single = look(lesson, arrangement, boxes, present)
     company = Company(boxes, present, anchors_of(lesson, arrangement, np.concatenate([boxes, present])))
@@ -118,7 +125,7 @@ def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
         first = judge.look.certainty(np.hstack([single, among]))
     settled = np.hstack([judge.look.value(np.hstack([single, among]))[:, None], company.evidence(first)])
     certainty = judge.settle.certainty(np.hstack([single, among, settled]))
-    return Survey(boxes, company, similar, single, among, settled, certainty, proposed, quick[:, :2].sum(axis=1))
+    return Survey(boxes, company, similar, single, among, settled, certainty, predicted, repeats)
 
 
 def look(lesson: Lesson, arrangement: Arrangement, boxes: Array, present: Array) -> tuple[Array, Array]:
@@ -162,13 +169,14 @@ def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDAr
     boxes, similar = seen.boxes[chosen].copy(), seen.similarities[chosen].copy()
     if not len(chosen):
         return boxes, similar
-    near = np.where(union_overlap(boxes, seen.proposed) >= SAME, seen.promise[None], -1.0)
+    alike = union_overlap(boxes, seen.predicted)
+    near = np.where(alike >= SAME, seen.repeats[None] + alike / 2, -1.0)
     best = np.argsort(-near, axis=1, kind="stable")[:, :VARIANTS]
     row = np.repeat(np.arange(len(chosen)), best.shape[1])
     best, valid = best.ravel(), np.take_along_axis(near, best, axis=1).ravel() >= 0
     row, best = row[valid], best[valid]
     variants, where = np.unique(best, return_inverse=True)
-    matches = lesson.match(signature(arrangement, seen.proposed[variants], lesson.options.neighbours, lesson.labels))
+    matches = lesson.match(signature(arrangement, seen.predicted[variants], lesson.options.neighbours, lesson.labels))
     of_variants = lesson.similarities(matches)
     p = lesson.positive
 
@@ -178,12 +186,18 @@ def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDAr
     # Variants from the proposals, and the candidates that were looked at, of the same place.
     among_row, among = np.nonzero(union_overlap(boxes, seen.boxes) >= SAME_PLACE)
     rows = np.concatenate([row, among_row])
-    options = np.concatenate([seen.proposed[best], seen.boxes[among]])
-    alike = np.concatenate([of_variants[where.ravel()], seen.similarities[among]])
-    worth = quality(alike)
-    order = np.lexsort((-worth, rows))
+    options = np.concatenate([seen.predicted[best], seen.boxes[among]])
+    similarities = np.concatenate([of_variants[where.ravel()], seen.similarities[among]])
+    worth = quality(similarities)
+    # Ways that agree equally well differ by rounding: of those the one that deforms the examples least.
+    deformed = (
+        np.abs(np.log(options[:, 2:] - options[:, :2])[:, None] - np.log(lesson.sizes[p])[None]).sum(axis=2).min(axis=1)
+    )
+    top = np.zeros(len(chosen))
+    np.maximum.at(top, rows, worth)
+    order = np.lexsort((deformed, worth < top[rows] - EQUALLY_ALIKE, rows))
     row, first = np.unique(rows[order], return_index=True)
-    boxes[row], similar[row] = options[order[first]], alike[order[first]]
+    boxes[row], similar[row] = options[order[first]], similarities[order[first]]
     return boxes, similar
 
 
