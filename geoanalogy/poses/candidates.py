@@ -59,7 +59,9 @@ class Candidates:
     angle: Array
 
 
-def find_candidates(importance: Importance, fields: Fields, blocked: NDArray[np.bool_]) -> Candidates:
+def find_candidates(
+    importance: Importance, fields: Fields, blocked: NDArray[np.bool_], taken: NDArray[np.bool_]
+) -> Candidates:
     """The maxima of the accumulated level sets.
 
     Parameters
@@ -70,6 +72,8 @@ def find_candidates(importance: Importance, fields: Fields, blocked: NDArray[np.
         The arrangement's relation fields.
     blocked : ndarray of shape (points,), bool
         Grid points where no part of the object may be.
+    taken : ndarray of shape (points,), bool
+        Grid points where its position may not be.
 
     Returns
     -------
@@ -77,8 +81,8 @@ def find_candidates(importance: Importance, fields: Fields, blocked: NDArray[np.
     """
     fields.evaluate(r for a in importance.answers.values() for r in a.relations)
     if importance.query.rigid:
-        return _of_footprint(importance, fields, blocked)
-    free = np.flatnonzero(~blocked)
+        return _of_footprint(importance, fields, blocked, taken)
+    free = np.flatnonzero(~blocked & ~taken)
     if importance.query.options.accumulation == "pose space":
         return _in_pose_space(importance, fields, free)
     return _in_plane(importance, fields, free)
@@ -87,7 +91,9 @@ def find_candidates(importance: Importance, fields: Fields, blocked: NDArray[np.
 # ------------------------------------------------------------------------------------------------ footprint
 
 
-def _of_footprint(importance: Importance, fields: Fields, blocked: NDArray[np.bool_]) -> Candidates:
+def _of_footprint(
+    importance: Importance, fields: Fields, blocked: NDArray[np.bool_], taken: NDArray[np.bool_]
+) -> Candidates:
     """Accumulate for all samples of the footprint, moved rigidly, in the few directions that the features suggest."""
     grid = fields.grid
     stride = max(1, round(FOOTPRINT_STEP * importance.width / grid.spacing))
@@ -103,7 +109,7 @@ def _of_footprint(importance: Importance, fields: Fields, blocked: NDArray[np.bo
             continue
         cells = (row[:, None] * grid.columns + column).ravel()
         offsets = steps[:, 1] * grid.columns + steps[:, 0]
-        free = cells[~blocked[cells[:, None] + offsets].any(axis=1)]
+        free = cells[~taken[cells] & ~blocked[cells[:, None] + offsets].any(axis=1)]
         if not len(free):
             continue
         score = _accumulate(importance, fields, free, offsets, direction)

@@ -178,16 +178,14 @@ class PoseModel:
             fields = target.fields(spacing, margin)
             blocked = self._validation.blocked(target, fields, slack)
             mirrored = importance.mirrored
-            candidates = find_candidates(importance, fields, blocked)
             # The example would outshine the other places of its room.
-            other = ~self._is_example(target, candidates.position, mirrored)
-            if not other.any():
+            taken = self._is_example(target, fields.grid.points, mirrored)
+            candidates = find_candidates(importance, fields, blocked, taken)
+            if not len(candidates.angle):
                 continue
             factor = 1.0 if importance.scale == 1.0 else SCALED_FACTOR
             best = max((f[0] for f in found), default=0.0)
-            position, angle, value = refine(
-                importance, candidates.position[other], candidates.angle[other], best / factor
-            )
+            position, angle, value = refine(importance, candidates.position, candidates.angle, best / factor)
             kept = (value * factor >= self.options.threshold) & ~self._is_example(target, position, mirrored)
             position, angle, value = position[kept], angle[kept], value[kept]
             accepted = self._validation.accepts(target, position, angle, mirrored, importance.scale)

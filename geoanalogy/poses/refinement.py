@@ -12,6 +12,9 @@ Array = NDArray[np.float64]
 SETTLED = 1e-4
 ITERATIONS = 6
 
+#: The number of results per parent that the numbers kept below are meant for; where more are wanted, more are kept.
+PER_PARENT = 12
+
 #: Candidates kept after an iteration, by its number: at the most so many, within this share of the best importance.
 #: Falling behind early says little, falling behind late is final.
 KEPT = {0: (24, 0.4), 1: (20, 0.4), 2: (16, 0.4), 3: (12, 0.4)}
@@ -26,6 +29,12 @@ SAME_MAXIMUM = 0.1
 #: every iteration.
 MET = 0.6
 SHARPER = 0.3
+
+#: Leading candidates around which is looked for better places, and how far, in half-widths. Where samples disagree the
+#: importance has plateaus with narrow peaks; least squares settle anywhere on them. And the iterations that follow.
+PROBED = 6
+PROBES = (0.1, 0.2, 0.4, 0.8, 1.4, 2.0)
+AGAIN = range(2, ITERATIONS + 1)
 
 
 def refine(importance: Importance, position: Array, angle: Array, floor: float = 0.0) -> tuple[Array, Array, Array]:
@@ -49,11 +58,25 @@ def refine(importance: Importance, position: Array, angle: Array, floor: float =
         Of shapes (k, 2), (k,) and (k,), k <= m.
     """
     unit = np.array([importance.width, importance.width, importance.query.options.direction_width])
-    best_position, best_angle, best = position, angle, np.full(len(position), -1.0)
     strong = importance.of_strongest(STRONG)
-    for iteration in range(ITERATIONS + 1):
+    position, angle, value = _descend(strong, position, angle, unit, range(ITERATIONS + 1), floor)
+    if not len(position):
+        return position, angle, value
+    position, angle = _probe(strong, position, angle, value, unit)
+    return position, angle, importance(position, angle)
+
+
+def _descend(
+    strong: Importance, position: Array, angle: Array, unit: Array, iterations: range, floor: float | None = None
+) -> tuple[Array, Array, Array]:
+    """The best poses met in iterations of reweighted least squares, and their importance for the strong pairs.
+
+    Without a floor all are kept.
+    """
+    best_position, best_angle, best = position, angle, np.full(len(position), -1.0)
+    for iteration in iterations:
         if not len(position):
-            return position, angle, np.zeros(0)
+            break
         misses = strong.misses(position, angle, uphill=True)
         value, step = _step(strong, misses, angle, unit, MET * SHARPER**iteration)
         better = value > best
@@ -66,11 +89,31 @@ def refine(importance: Importance, position: Array, angle: Array, floor: float =
         if iteration > max(KEPT) and size.max() < SETTLED:
             break
         position, angle = position + step[:, :2], angle + step[:, 2]
-        if iteration in KEPT:
-            kept = _leading(best_position, best_angle, best, unit, floor, *KEPT[iteration])
+        if iteration in KEPT and floor is not None:
+            most, share = KEPT[iteration]
+            most = most * max(PER_PARENT, strong.query.options.candidates) // PER_PARENT
+            kept = _leading(best_position, best_angle, best, unit, floor, most, share)
             position, angle = position[kept], angle[kept]
             best_position, best_angle, best = best_position[kept], best_angle[kept], best[kept]
-    return best_position, best_angle, importance(best_position, best_angle)
+    return best_position, best_angle, best
+
+
+def _probe(strong: Importance, position: Array, angle: Array, value: Array, unit: Array) -> tuple[Array, Array]:
+    """Look around the leading poses for better ones, and go on from those."""
+    lead = np.argsort(-value, kind="stable")[:PROBED]
+    c, s = np.cos(angle[lead]), np.sin(angle[lead])
+    ways = np.stack([np.stack([c, s], axis=1), np.stack([-s, c], axis=1)])
+    steps = unit[0] * np.concatenate([sign * far * ways for far in PROBES for sign in (1, -1)])
+    around = position[lead] + steps
+    found = strong(around.reshape(-1, 2), np.tile(angle[lead], len(steps))).reshape(len(steps), len(lead))
+    best = np.argmax(found, axis=0)
+    gains = np.flatnonzero(found.max(axis=0) > value[lead])
+    if len(gains):
+        moved = lead[gains]
+        new = _descend(strong, around[best[gains], gains], angle[moved], unit, AGAIN)
+        better = new[2] > value[moved]
+        position[moved[better]], angle[moved[better]] = new[0][better], new[1][better]
+    return position, angle
 
 
 def _leading(
