@@ -166,7 +166,7 @@ class PoseModel:
         for scale in self.scales(target):
             for sense in senses(self.query):
                 importance = Importance(self.query, target, sense, scale)
-                if importance.bound >= self.options.threshold:
+                if self.query.total and importance.bound >= self.options.threshold:
                     yield importance
 
     def _place_in(self, target: Arrangement, spacing: float) -> list[PropagatedPose]:
