@@ -5,12 +5,13 @@
 # make extension  build the extension's zips into dist/
 # make gallery    replay and draw every sample scene
 # make bench      the benchmarks
+# make figures    draw the studies of docs/studies.md
 #
 # Everything runs in .venv, made from a Python 3.11 or 3.13 (PYTHON=path chooses).
 
 SHELL := /bin/sh
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint wheels extension gallery bench clean
+.PHONY: help demo test lint wheels extension gallery bench figures clean
 
 PY := .venv/bin/python
 READY := .venv/ready
@@ -55,6 +56,9 @@ gallery: $(READY)
 
 bench: $(READY)
 	$(PY) -m benchmarks
+
+figures: $(READY)
+	$(PY) -m benchmarks.figures
 
 clean:
 	rm -rf .venv build dist output .pytest_cache .ruff_cache .mypy_cache .hypothesis

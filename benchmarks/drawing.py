@@ -24,6 +24,7 @@ FLOOR = "#f5f4f0"
 FURNITURE = "#d9d5ca"
 EXAMPLE = "#c8102e"
 RESULT = "#1f6fb4"
+SECOND = "#2e8b57"
 POOR = "#8a8f98"
 HEAT = LinearSegmentedColormap.from_list("heat", ["#fbfaf7", "#fde3b5", "#f9a54b", "#d9431e", "#7a0c14"])
 
@@ -87,7 +88,9 @@ def scene(ax: Axes, shown: ga.Scene, rooms: Iterable[str], floor: str = FLOOR, n
         if polygon.id not in places:
             ring(ax, polygon.points, facecolor=FURNITURE, edgecolor=INK, linewidth=0.6, zorder=3)
             if names:
-                ax.text(*polygon.centroid, polygon.label, ha="center", va="center", fontsize=5.5, zorder=6)
+                wide, high = polygon.bounds[2:] - polygon.bounds[:2]
+                style = {"ha": "center", "va": "center", "fontsize": 5, "rotation": 90 if high > 1.3 * wide else 0}
+                ax.text(*polygon.centroid, polygon.label, zorder=6, **style)
     fit(ax, shown.bounds)
 
 

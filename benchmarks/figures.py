@@ -10,6 +10,9 @@ from pathlib import Path
 
 import numpy as np
 import shapely
+from scipy.ndimage import distance_transform_edt
+
+import geoanalogy as ga
 
 from . import drawing as draw
 from .studies import (
@@ -25,6 +28,7 @@ from .studies import (
     shape_matching,
 )
 from .studies.bathrooms import ROOMS as BATHROOMS
+from .studies.bathrooms import SCENE as BARE_BATHROOMS
 from .studies.heat import HeatMap, heat_maps
 
 FOLDER = Path(__file__).resolve().parent.parent / "docs" / "figures"
@@ -68,9 +72,9 @@ def figure_4_14():
         found = {r.parent.id: r for r in step.results}
         for ax, room in zip(row, BATHROOMS, strict=True):
             shown = step.before.polygon(room)
-            draw.scene(ax, step.before, BATHROOMS)
+            draw.scene(ax, ga.Scene([shown, *step.before.members_of(room)]), [room])
             x0, y0, _, y1 = shown.bounds
-            draw.fit(ax, (x0, y0 - 0.15, x0 + 4.6, max(y1, y0 + 3.5)))
+            draw.fit(ax, (x0, y0 - 0.15, x0 + 5.2, max(y1, y0 + 3.5)))
             if room == "source":
                 draw.piece(ax, step.edit.pose, step.edit.footprint, draw.EXAMPLE)
                 _bars(ax, relation_shares.asked(step), draw.EXAMPLE)
@@ -94,7 +98,7 @@ SHORT = {
 
 def _bars(ax, shares: dict[str, float], colour: str) -> None:
     """Shares of importance as bars at a room's right side."""
-    bars = ax.inset_axes((0.74, 0.12, 0.26, 0.55))
+    bars = ax.inset_axes((0.78, 0.12, 0.22, 0.55))
     bars.barh(range(len(shares)), list(shares.values()), color=colour, height=0.7)
     bars.set_yticks(range(len(shares)), [SHORT[name] for name in shares], fontsize=5)
     bars.set_xticks([])
@@ -111,8 +115,7 @@ def figure_4_15():
     runs = {name: order.run(name) for name in order.ORDERS}
     differ = order.differences(*runs.values())
     for ax, (name, steps) in zip(panels.flat, runs.items(), strict=True):
-        last = steps[name[-1]]
-        draw.scene(ax, last.before, BATHROOMS)
+        draw.scene(ax, BARE_BATHROOMS, BATHROOMS)
         for letter, step in steps.items():
             draw.piece(ax, step.edit.pose, step.edit.footprint, draw.EXAMPLE)
             draw.note(ax, step.edit.pose.position, letter)
@@ -146,10 +149,10 @@ def figure_4_17():
         bounds = accumulation.SCENE.polygon("far").bounds
         draw.scene(column[0], accumulation.SCENE, accumulation.ROOMS, floor="none")
         draw.heat(column[0], heat_maps(step.model, accumulation.SCENE), 0.6)
-        for result, colour in zip(there, (draw.RESULT, draw.EXAMPLE), strict=False):
+        for result, colour in zip(there, (draw.RESULT, draw.SECOND), strict=False):
             draw.piece(column[0], result.pose, accumulation.TELEVISION, colour, linewidth=1.6)
         draw.fit(column[0], bounds)
-        draw.title(column[0], f"{mode}: {len(there)} at the place where the level sets meet")
+        draw.title(column[0], f"{mode}: {len(there)} answer{'s' * (len(there) > 1)} where the level sets meet")
         draw.scene(column[1], accumulation.SCENE, accumulation.ROOMS)
         for step in sequence[mode]:
             draw.piece(column[1], step.edit.pose, step.edit.footprint, draw.EXAMPLE, linewidth=0.8)
@@ -206,6 +209,10 @@ def _quality(ax, match, outline) -> None:
     column, row = np.rint((match.points - low) / spacing).astype(int).T
     sheet = np.full((row.max() + 1, column.max() + 1), np.nan)
     sheet[row, column] = match.quality - match.quality.min()
+    # Cells that the wall cuts take what is nearest.
+    nearest = distance_transform_edt(np.isnan(sheet), return_distances=False, return_indices=True)
+    sheet = np.pad(sheet[tuple(nearest)], 1, mode="edge")
+    low = low - spacing
     high = low + spacing * np.array([sheet.shape[1] - 0.5, sheet.shape[0] - 0.5])
     low = low - spacing / 2
     draw.heat(ax, [HeatMap(outline, (low[0], high[0], low[1], high[1]), sheet)])
@@ -225,7 +232,7 @@ def figure_4_19():
 
 
 def figure_4_20():
-    figure, panels = draw.canvas(3, 1, 7.5, 2.0)
+    figure, panels = draw.canvas(3, 1, 7.5, 1.75, width_ratios=(1.0, 1.3, 1.3))
     for ax, (name, build) in zip(panels.flat, difficulty.SCENES.items(), strict=True):
         case, outcome = build(), difficulty.run(name)
         draw.heat(ax, heat_maps(outcome.model, case.scene, 900))

@@ -65,43 +65,41 @@ def accumulate(model: PoseModel, scene: Scene, raster: Raster, volume: bool = Fa
     query = model.query
     shape = (len(raster.points), BINS) if volume else (len(raster.points),)
     width = HALF_WIDTH * raster.spacing
+    bins = 2 * np.pi * np.arange(BINS) / BINS
     layers = {
         (element, k, i): np.zeros(shape, dtype=np.float32)
-        for element, q in ({} if volume else query.questions).items()
+        for element, q in query.questions.items()
         for k in range(len(q.relations))
         for i in range(len(q.feature))
     }
+    for polygon in scene.polygons:
+        elements = Elements.of([polygon])
+        seen = Observation(elements, raster.points)
+        for (element, k, i), layer in layers.items():
+            q = query.questions[element]
+            if not _may_match(query.arrangement.elements, element, q.feature[i], polygon.label):
+                continue
+            accuracy = _accuracy(query.arrangement.elements, elements, element, q.feature[i])
+            away = np.abs(_difference(q.relations[k], seen, elements, q.value[k, i])) / width
+            kernel = np.maximum(0, 1 - away) * accuracy[:, None]
+            if not volume:
+                np.maximum(layer, kernel.max(axis=0), out=layer)
+                continue
+            direction = q.relations[k].directional.reference(seen) + q.turn[k, i]
+            for row in np.flatnonzero(kernel.any(axis=1)):
+                cell = np.flatnonzero(kernel[row])
+                off = np.abs(wrap(bins - direction[row, cell, None])) / query.options.direction_width
+                both = kernel[row, cell, None] * np.maximum(0, 1 - off)
+                layer[cell] = np.maximum(layer[cell], both)
     total = np.zeros(shape, dtype=np.float32)
-    bins = 2 * np.pi * np.arange(BINS) / BINS
-    for element, q in query.questions.items():
-        for k, relation in enumerate(q.relations):
-            for i, feature in enumerate(q.feature):
-                # One layer at a time for the volume: all of them would need gigabytes.
-                layer = np.zeros(shape, dtype=np.float32) if volume else layers[element, k, i]
-                for polygon in scene.polygons:
-                    elements = Elements.of([polygon])
-                    accuracy = _accuracy(query.arrangement.elements, elements, element, feature)
-                    if not len(accuracy) or not _may_match(query, element, feature, polygon.label):
-                        continue
-                    seen = Observation(elements, raster.points)
-                    away = np.abs(_difference(relation, seen, elements, q.value[k, i])) / width
-                    kernel = np.maximum(0, 1 - away) * accuracy[:, None]
-                    if not volume:
-                        np.maximum(layer, kernel.max(axis=0), out=layer)
-                        continue
-                    direction = relation.directional.reference(seen) + q.turn[k, i]
-                    for row in np.flatnonzero(kernel.any(axis=1)):
-                        cell = np.flatnonzero(kernel[row])
-                        off = np.abs(wrap(bins - direction[row, cell, None])) / query.options.direction_width
-                        both = kernel[row, cell, None] * np.maximum(0, 1 - off)
-                        layer[cell] = np.maximum(layer[cell], both)
-                total += q.weight[k, i] * layer
+    for (element, k, i), layer in layers.items():
+        total += query.questions[element].weight[k, i] * layer
     return total / query.total
 
 
-def _may_match(query, element: ElementType, feature: int, label: str) -> bool:
-    polygons = query.arrangement.elements
-    return polygons.polygons[polygons.polygon_of(element)[feature]].label == label
+def _may_match(source: Elements, element: ElementType, feature: int, label: str) -> bool:
+    """Whether a feature of the example is of a polygon of a label (section 4.8)."""
+    return source.polygons[source.polygon_of(element)[feature]].label == label
 
 
 def _accuracy(source: Elements, target: Elements, element: ElementType, feature: int) -> NDArray[np.float64]:

@@ -71,7 +71,7 @@ def shape_contexts(centres: Array, directions: Array, samples: Array, sectors: i
     ----------
     centres : ndarray of shape (m, 2)
     directions : ndarray of shape (m,)
-        The sectors are counted from here: the histograms do not depend on how the scene is turned.
+        The first sector lies around it: the histograms do not depend on how the scene is turned.
     samples : ndarray of shape (n, 2)
     sectors : int
 
@@ -85,7 +85,8 @@ def shape_contexts(centres: Array, directions: Array, samples: Array, sectors: i
     scale = np.hypot(*(samples[:, None] - samples).transpose(2, 0, 1)).mean()
     edges = np.geomspace(INNERMOST, OUTERMOST, RINGS)
     ring = np.searchsorted(edges, distance / scale)
-    turn = (np.arctan2(way[..., 1], way[..., 0]) - directions[:, None]) % (2 * np.pi)
+    # Straight on and at right angles are the middles of sectors: on a border, walls would fall on either side of it.
+    turn = (np.arctan2(way[..., 1], way[..., 0]) - directions[:, None] + np.pi / SECTORS) % (2 * np.pi)
     sector = np.minimum((turn * sectors / (2 * np.pi)).astype(int), sectors - 1)
     result = np.zeros((len(centres), RINGS, sectors))
     row = np.broadcast_to(np.arange(len(centres))[:, None], ring.shape)

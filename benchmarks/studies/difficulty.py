@@ -1,7 +1,7 @@
 """Figure 4.20: three scenes that are increasingly hard, because less is said by relations and more by shapes.
 
 In the first, many simple features surround the object. In the second there is only a jagged outline, stretched
-unevenly. In the third, the outline is that of a leaf: a hundred features which are all alike, bent.
+unevenly. The third is a serrated leaf, bent and swollen: its teeth are all alike, and without them little is left.
 """
 
 from collections.abc import Callable

@@ -103,7 +103,7 @@ def cases() -> dict[str, tuple[ga.Scene, Edit]]:
 
 
 def movements(scene: ga.Scene, edit: Edit) -> list[Movement]:
-    """How the best result of an edit in every room moves with the grid.
+    """How the best result of an edit in every other room moves with the grid.
 
     Parameters
     ----------
@@ -116,8 +116,10 @@ def movements(scene: ga.Scene, edit: Edit) -> list[Movement]:
         Best first.
     """
     usual = _place(scene, edit, Variant())
-    rooms = {str(r.parent.id): r for r in reversed([r for r, _ in usual])}
-    place = {str(r.parent.id): p for r, p in reversed(usual)}
+    own = ga.learn_pose(scene, edit.pose, edit.footprint).parent.id
+    best = {str(r.parent.id): (r, p) for r, p in reversed(usual) if r.parent.id != own}
+    rooms = {id: r for id, (r, _) in best.items()}
+    place = {id: p for id, (_, p) in best.items()}
     worst = dict.fromkeys(rooms, (0.0, 0.0))
     for variant in VARIANTS:
         others = _place(scene, edit, variant)

@@ -55,11 +55,12 @@ def asked(step: Step) -> dict[str, float]:
         They add up to 1.
     """
     query = step.model.query
-    return {
+    weights = {
         relation.name: float(question.weight[k].sum() / query.total)
         for question in query.questions.values()
         for k, relation in enumerate(question.relations)
     }
+    return {name: weights[name] for name in RELATIONS}
 
 
 def used(steps: Iterable[Step]) -> list[set[str]]:

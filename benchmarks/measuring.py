@@ -1,0 +1,84 @@
+"""What benchmarks measure with, and the tables they report."""
+
+from __future__ import annotations
+
+import os
+import platform
+import statistics
+import time
+import tracemalloc
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+#: Runs of which the median is reported.
+RUNS = 5
+
+
+@dataclass(frozen=True)
+class Table:
+    """One table of a report.
+
+    Attributes
+    ----------
+    title : str
+    header : tuple of str
+    rows : sequence of tuple
+    note : str
+        What was measured, and against what.
+    """
+
+    title: str
+    header: tuple[str, ...]
+    rows: Sequence[tuple[object, ...]]
+    note: str = ""
+
+    def markdown(self) -> str:
+        """The table as Markdown, columns aligned."""
+        cells = [[str(c) for c in row] for row in (self.header, *self.rows)]
+        widths = [max(len(row[k]) for row in cells) for k in range(len(self.header))]
+        lines = ["| " + " | ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)) + " |" for row in cells]
+        lines.insert(1, "|" + "|".join("-" * (w + 2) for w in widths) + "|")
+        return "\n".join([f"### {self.title}", "", *([self.note, ""] if self.note else []), *lines, ""])
+
+
+def seconds(work: Callable[[], object], runs: int = RUNS, prepare: Callable[[], object] | None = None) -> float:
+    """Median time of some runs, in seconds; `prepare` runs before each, unmeasured."""
+    taken = []
+    for _ in range(runs):
+        if prepare is not None:
+            prepare()
+        start = time.perf_counter()
+        work()
+        taken.append(time.perf_counter() - start)
+    return statistics.median(taken)
+
+
+def peak_megabytes(work: Callable[[], object]) -> float:
+    """Most memory that one run allocates beyond what was there, in megabytes (millions of bytes)."""
+    tracemalloc.start()
+    try:
+        work()
+        return tracemalloc.get_traced_memory()[1] / 1e6
+    finally:
+        tracemalloc.stop()
+
+
+def milliseconds(value: float) -> str:
+    """Seconds as milliseconds with three figures."""
+    return f"{1e3 * value:.3g} ms" if value < 10 else f"{value:.0f} s"
+
+
+def times(slow: float, fast: float) -> str:
+    """How many times as long the first takes."""
+    ratio = slow / fast
+    return f"{ratio:.0f} ×" if ratio >= 10 else f"{ratio:.1f} ×"
+
+
+def machine() -> str:
+    """One sentence about where the figures were taken."""
+    return (
+        f"Python {platform.python_version()}, numpy {np.__version__}, {os.cpu_count()} cores of {platform.machine()}; "
+        f"medians of {RUNS} runs unless a table says otherwise."
+    )
