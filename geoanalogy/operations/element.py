@@ -43,6 +43,10 @@ class Element:
         How well it answers the example, 0 to 1.
     example : bool
         Whether it is the example itself, put there by the user.
+    stretch : (float, float)
+        Its extents along the pose's direction and across it, in proportion to the library object's at that scale.
+    novelty : float
+        How far its surroundings are from anything that was taught, 0 to 1.
     """
 
     label: str
@@ -56,6 +60,8 @@ class Element:
     scale: float = 1.0
     importance: float = 1.0
     example: bool = False
+    stretch: tuple[float, float] = (1.0, 1.0)
+    novelty: float = 0.0
 
     @property
     def id(self) -> str:
@@ -65,12 +71,16 @@ class Element:
     @property
     def ring(self) -> NDArray[np.float64] | None:
         """Its outline on the surface, shape (n, 2), counter-clockwise unless it is mirrored; None for a point."""
-        return None if self.footprint is None else self.pose.to_scene(self.scale * np.array(self.footprint))
+        return None if self.footprint is None else self.pose.to_scene(self._sized)
 
     @property
     def reach(self) -> float:
         """Greatest distance of its outline from its position; 0 for a point."""
-        return 0.0 if self.footprint is None else self.scale * max(float(np.hypot(x, y)) for x, y in self.footprint)
+        return 0.0 if self.footprint is None else float(np.hypot(*self._sized.T).max())
+
+    @property
+    def _sized(self) -> NDArray[np.float64]:
+        return self.scale * np.array(self.stretch) * np.array(self.footprint)
 
     @cached_property
     def polygon(self) -> Polygon | None:

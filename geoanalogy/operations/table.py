@@ -5,9 +5,18 @@ from .choice_placement import ChoicePlacement
 from .group_placement import GroupPlacement
 from .operation import Operation
 from .pose_placement import PosePlacement
+from .rectangle_placement import RectanglePlacement
 from .scatter_placement import ScatterPlacement
 
 #: Every kind of operation by its name.
 OPERATIONS: dict[str, type[Operation]] = {
-    kind.type: kind for kind in (PosePlacement, ArrayPlacement, GroupPlacement, ScatterPlacement, ChoicePlacement)
+    kind.type: kind
+    for kind in (
+        PosePlacement,
+        ArrayPlacement,
+        GroupPlacement,
+        ScatterPlacement,
+        ChoicePlacement,
+        RectanglePlacement,
+    )
 }

@@ -9,12 +9,13 @@ from edits import BED, TABLE, placement, rooms
 from shapely import Polygon as Shape
 from shapes import rectangle, regular, ring
 
-from geoanalogy import InputError, OperationsTree, Polygon, Pose, Scene
+from geoanalogy import Example, InputError, OperationsTree, Polygon, Pose, Rectangle, Scene
 from geoanalogy.operations.array_placement import ArrayPlacement
 from geoanalogy.operations.choice_placement import ChoicePlacement
 from geoanalogy.operations.group_placement import GroupPlacement
 from geoanalogy.operations.node import Link, Node
 from geoanalogy.operations.pose_placement import PosePlacement
+from geoanalogy.operations.rectangle_placement import RectanglePlacement
 from geoanalogy.operations.scatter_placement import ScatterPlacement
 from geoanalogy.operations.table import OPERATIONS
 from geoanalogy.poses.arrays import learn_array
@@ -52,6 +53,12 @@ def operations():
         ),
         "choice": ChoicePlacement(
             meshes=("Oak", "Elm"), label="tree", models=tuple(poses), max_per={"lawn": 1}, weights=(1.0, 2.0)
+        ),
+        "placement": RectanglePlacement.learned(
+            [Example(scene, Rectangle(1, 1, 1, 1)), Example(scene, Rectangle(11, 1, 1, 1))],
+            mesh="Tree",
+            label="tree",
+            size=(1.0, 1.0),
         ),
     }
 

@@ -1,0 +1,289 @@
+"""Placement by several examples (chapter 5): rectangles that a learned rule finds, filled with a library object."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, Self
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from ..errors import InputError
+from ..geometry.polygon import Polygon
+from ..geometry.rectangle import Rectangle
+from ..geometry.scene import Scene
+from ..placements.arrays import Fit, element_array
+from ..placements.examples import Example, checked, parents_of
+from ..placements.model import Placement, PlacementModel, learn_placement
+from ..placements.options import PlacementOptions
+from ..poses.pose import Pose
+from ..progress import Stepper
+from ..tolerances import SAME_POLYGON
+from .element import Element
+from .keys import key_of
+from .layout import Layout
+from .placing import PlacingOne, with_distinct_keys
+from .settings import counts, flag, number, one_of, stored
+
+#: Least score that is computed; the threshold, which sifts without computing, lies above it.
+LEAST_SCORE = 0.1
+
+
+@dataclass(frozen=True)
+class DrawnIn:
+    """The polygon that an example was drawn in, as an operation remembers it.
+
+    Attributes
+    ----------
+    id : str
+    bounds : (float, float, float, float)
+        Its least and greatest coordinates (x0, y0, x1, y1).
+    """
+
+    id: str
+    bounds: tuple[float, float, float, float]
+
+    def is_in(self, scene: Scene) -> bool:
+        """Whether a scene has it, in the same place.
+
+        Parameters
+        ----------
+        scene : Scene
+
+        Returns
+        -------
+        bool
+        """
+        found = next((p for p in scene.polygons if p.id == self.id), None)
+        return found is not None and bool(
+            np.abs(np.subtract(found.bounds, self.bounds)).max() <= SAME_POLYGON * found.size
+        )
+
+
+def _read_grounds(value: Any) -> tuple[DrawnIn, ...]:
+    return tuple(DrawnIn(str(id), tuple(number(b) for b in bounds)) for id, *bounds in value)  # type: ignore[arg-type]
+
+
+def _write_grounds(grounds: Sequence[DrawnIn]) -> list[list[Any]]:
+    return [[g.id, *g.bounds] for g in grounds]
+
+
+def _read_pair(value: Any) -> tuple[float, float]:
+    x, y = value
+    return number(x), number(y)
+
+
+def _read_fit(value: Any) -> tuple[Fit, Fit]:
+    read = one_of("scale", "repeat")
+    along, across = value
+    return read(along), read(across)  # type: ignore[return-value]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RectanglePlacement(PlacingOne):
+    """Put a library object into every rectangle that stands in the relations learned from a few of them.
+
+    It holds the learned model, not the examples, and places in every polygon of the label that those were drawn in.
+
+    Attributes
+    ----------
+    model : PlacementModel
+        What the examples have in common.
+    grounds : tuple of DrawnIn
+        The polygons that the model's examples were drawn in, one per example: there, they are not placed a second time.
+    size : (float, float)
+        Width and height of the library object.
+    fit : (str, str)
+        "scale" or "repeat", along a placement's width and along its height (section 5.6).
+    gap : (float, float)
+        Least distance between repeated objects, along either axis.
+    fill : bool
+        Whether the examples are filled as well: they were drawn as rectangles, and no objects stand there.
+    threshold : float
+        Results below this score are not placed.
+    max_per : mapping of str to int
+        Most placements per parent of a label, the examples counted.
+    """
+
+    type = "placement"
+
+    model: PlacementModel = field(metadata=stored(PlacementModel.from_dict, PlacementModel.to_dict))
+    grounds: tuple[DrawnIn, ...] = field(metadata=stored(_read_grounds, _write_grounds))
+    size: tuple[float, float] = field(metadata=stored(_read_pair, list))
+    fit: tuple[Fit, Fit] = field(default=("scale", "scale"), metadata=stored(_read_fit, list))
+    gap: tuple[float, float] = field(default=(0.0, 0.0), metadata=stored(_read_pair, list))
+    fill: bool = field(default=False, metadata=stored(flag))
+    threshold: float = field(default=0.5, metadata=stored(number, late=True))
+    max_per: dict[str, int] = field(default_factory=dict, metadata=stored(counts, dict, late=True))
+
+    def __post_init__(self) -> None:
+        if len(self.grounds) != len(self.model.lesson.taught):
+            raise InputError(
+                f"there are {len(self.grounds)} polygons for {len(self.model.lesson.taught)} examples; give one per "
+                "example"
+            )
+        # A size, gap or fit that cannot be is found here, not in the middle of a replay.
+        element_array(Rectangle(0.0, 0.0, *self.size), self.size, self.fit, self.gap)
+
+    @classmethod
+    def learned(cls, examples: Sequence[Example], options: PlacementOptions | None = None, **settings: Any) -> Self:
+        """The operation that examples teach.
+
+        Parameters
+        ----------
+        examples : sequence of Example
+        options : PlacementOptions, optional
+        **settings
+            Its other attributes.
+
+        Returns
+        -------
+        RectanglePlacement
+
+        Raises
+        ------
+        InputError
+            For examples that nothing can be learned from.
+        """
+        kept = checked(examples)
+        drawn = [DrawnIn(str(p.id), tuple(float(b) for b in p.bounds)) for p in parents_of(kept)]  # type: ignore[arg-type]
+        return cls(model=learn_placement(kept, options), grounds=tuple(drawn), **settings)
+
+    @property
+    def footprint(self) -> NDArray[np.float64]:
+        """The library object's rectangle about its centre."""
+        return Rectangle(0.0, 0.0, *self.size).ring
+
+    def propose(self, layout: Layout, node: str, seed: int) -> Stepper[tuple[Element, ...]]:
+        """Place in every parent; then the examples that were drawn here, and no result across one of them."""
+        scene = layout.scene
+        found = yield from self.model.placing(scene, LEAST_SCORE)
+        drawn = [
+            (taught.rectangle, taught.target, scene.polygon(ground.id))
+            for taught, ground in zip(self.model.lesson.taught, self.grounds, strict=True)
+            if ground.is_in(scene)
+        ]
+        shown: list[Element] = []
+        results: list[Placement] = [p for p in found if not self._is_drawn(p, drawn)]
+        for rectangle, target, parent in drawn:
+            if target > 0 and self.fill:
+                results.append(Placement(rectangle, target, parent, 0.0))
+            elif target > 0:
+                shown += self._elements([rectangle], Placement(rectangle, target, parent, 0.0), node, example=True)
+        for p in sorted(results, key=lambda p: -p.score):
+            shown += self._elements(element_array(p.rectangle, self.size, self.fit, self.gap), p, node)
+        return with_distinct_keys(shown)
+
+    def _is_drawn(self, placement: Placement, drawn: Sequence[tuple[Rectangle, float, Polygon]]) -> bool:
+        """Whether a result overlaps an example, wanted or not, that was drawn in its parent.
+
+        The model sees to that too, but only where the drawing is the same to the last bit.
+        """
+        shape = shapely.Polygon(placement.rectangle.ring)
+        for rectangle, _, parent in drawn:
+            if parent.id == placement.parent.id:
+                shared = shapely.area(shapely.intersection(shape, shapely.Polygon(rectangle.ring)))
+                if shared > self.model.options.allow_overlaps * min(rectangle.area, placement.rectangle.area):
+                    return True
+        return False
+
+    def _elements(
+        self, rectangles: Sequence[Rectangle], placement: Placement, node: str, example: bool = False
+    ) -> list[Element]:
+        ring = tuple((float(x), float(y)) for x, y in self.footprint)
+        # All objects of an array share the key of their placement, but for a number behind it.
+        key = key_of((placement.rectangle.x, placement.rectangle.y), placement.parent)
+        return [
+            Element(
+                self.label,
+                self.mesh,
+                str(placement.parent.id),
+                Pose((r.x, r.y), r.angle),
+                ring,
+                node,
+                key,
+                importance=placement.score,
+                example=example,
+                stretch=(r.width / self.size[0], r.height / self.size[1]),
+                novelty=placement.novelty,
+            )
+            for r in rectangles
+        ]
+
+    def chosen(self, results: Sequence[Element], examples: Sequence[Element], layout: Layout) -> Sequence[Element]:
+        """The results above the threshold, at most so many placements per parent."""
+        most = self.max_per.get(self.model.label, math.inf)
+        standing: dict[str, set[str]] = {}
+        for e in examples:
+            standing.setdefault(e.parent, set()).add(placement_key(e.key))
+        kept = []
+        for e in results:
+            placements = standing.setdefault(e.parent, set())
+            if e.importance >= self.threshold and (placement_key(e.key) in placements or len(placements) < most):
+                placements.add(placement_key(e.key))
+                kept.append(e)
+        return kept
+
+    def reads(self, layout: Layout) -> list[Polygon]:
+        """The polygons of the label that is placed in, and everything below them."""
+        scene = layout.scene
+        waiting = [p for p in scene.polygons if p.label == self.model.label]
+        read = {p.id for p in waiting}
+        while waiting:
+            for member in scene.members_of(str(waiting.pop().id)):
+                if member.id not in read:
+                    read.add(member.id)
+                    waiting.append(member)
+        return [p for p in scene.polygons if p.id in read]
+
+
+def siblings(key: str, keys: Sequence[str]) -> list[str]:
+    """The keys of the objects that fill the same placement as one of them.
+
+    Parameters
+    ----------
+    key : str
+    keys : sequence of str
+        Of all results.
+
+    Returns
+    -------
+    list of str
+        In order, itself included.
+    """
+    return [other for other in keys if placement_key(other) == placement_key(key)]
+
+
+def placement_key(key: str) -> str:
+    """The key of the placement that an object of an array fills.
+
+    Parameters
+    ----------
+    key : str
+
+    Returns
+    -------
+    str
+    """
+    parent, _, place = key.rpartition("@")
+    return f"{parent}@{','.join(place.split(',')[:2])}"
+
+
+def outline_of(elements: Sequence[Element]) -> Rectangle:
+    """The rectangle that the objects of one placement fill.
+
+    Parameters
+    ----------
+    elements : sequence of Element
+        At least one; all of one direction.
+
+    Returns
+    -------
+    Rectangle
+    """
+    angle = elements[0].pose.angle
+    points = np.vstack([e.ring for e in elements if e.ring is not None])
+    c, s = np.cos(angle), np.sin(angle)
+    turned = points @ np.array([[c, -s], [s, c]])
+    return Rectangle.from_box(np.hstack([turned.min(axis=0), turned.max(axis=0)]), angle)
