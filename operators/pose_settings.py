@@ -1,8 +1,9 @@
 """The options of propagation that several operators show in their redo panels."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
+from ..geoanalogy.blender.pairs import read_pairs
 from ..geoanalogy.blender.recording import LEAST_IMPORTANCE
 from ..geoanalogy.poses.options import PoseOptions
 from ..geoanalogy.relations.table import POSE_RELATIONS
@@ -65,8 +66,18 @@ class PoseSettings:
         default=PoseOptions().level_set_width,
     )
 
+    clearance: StringProperty(
+        name="Clearance",
+        description="Width to keep free around polygons of a label, as in: door 0.9, window 0.3",
+    )
+    weights: StringProperty(
+        name="Weights",
+        description="How much a label or a relation counts, 0 is not at all and 1 as usual, as in: chair 0, "
+        "corner distance 2",
+    )
+
     def pose_options(self) -> PoseOptions:
-        """The options as the engine takes them."""
+        """The options as the engine takes them; an InputError where clearance or weights cannot be read."""
         return PoseOptions(
             relations=tuple(item[0] for item in RELATION_ITEMS if item[0] in self.relations),
             threshold=LEAST_IMPORTANCE,
@@ -77,11 +88,15 @@ class PoseSettings:
             scale=self.scale,
             labels=self.use_labels,
             validate=self.validate,
+            clearance=read_pairs(self.clearance, "clearance"),
+            relation_weights=read_pairs(self.weights, "weight"),
         )
 
     def draw_pose_settings(self, layout: bpy.types.UILayout) -> None:
         """Draw them into a redo panel."""
-        for name in ("mirror", "scale", "accumulation", "level_set_width", "validate", "symmetries", "use_labels"):
+        for name in ("mirror", "scale", "accumulation", "level_set_width", "validate", "clearance"):
+            layout.prop(self, name)
+        for name in ("symmetries", "use_labels", "weights"):
             layout.prop(self, name)
         column = layout.column(heading="Relations")
         column.prop(self, "relations")

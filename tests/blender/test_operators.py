@@ -253,6 +253,8 @@ def test_children_of_the_example_come_along():
         ({"scale": "room"}, {"scale": "room"}),
         ({"relations": {"corner ratio"}}, {"relations": ("corner ratio",)}),
         ({"level_set_width": 0.1}, {"level_set_width": 0.1}),
+        ({"clearance": "door 0.9, coffee table: 0.3"}, {"clearance": {"door": 0.9, "coffee table": 0.3}}),
+        ({"weights": "chair = 0, corner distance 2,"}, {"relation_weights": {"chair": 0.0, "corner distance": 2.0}}),
     ],
     ids=lambda value: next(iter(value)),
 )
@@ -290,6 +292,32 @@ def test_results_stay_clear_of_a_doors_swing():
     bpy.data.objects["door 1"]["ga_validation"] = "swing 1"
     propagate(mirror="NO")
     assert not [i for i in results() if i.location.x == pytest.approx(7.6, abs=0.05)]
+
+
+def test_clearance_keeps_results_away_from_a_label():
+    rooms(2)
+    face("rug 1", [(0.8, 0.8), (1.4, 0.8), (1.4, 1.4), (0.8, 1.4)], "rug", at=(5.0, 0.0, 0.0))
+    activate(box("Trunk", (0.6, 0.6, 0.5), "trunk", at=(0.4, 0.4, 0)))
+
+    propagate(mirror="NO")
+    assert [i.location.x for i in results()] == pytest.approx([5.4], abs=0.01)
+    propagate(mirror="NO", clearance="rug 0.5")
+    assert not [i for i in results() if i.location.x == pytest.approx(5.4, abs=0.1) and i.location.y < 0.7]
+
+
+def test_a_weight_of_zero_mutes_a_label():
+    """A chair between table and desk; in the other room they stand apart (figure 4.19)."""
+    for i, desk in enumerate([(3.5, 1.5), (3.5, 0.5)]):
+        face(f"room {i}", ROOM, "room", at=(5.0 * i, 0.0, 0.0))
+        box(f"table {i}", (0.8, 0.8, 0.7), "table", at=(5.0 * i + 2.0, 1.5, 0))
+        box(f"desk {i}", (0.6, 0.6, 0.7), "desk", at=(5.0 * i + desk[0], desk[1], 0))
+    activate(box("Chair", (0.4, 0.4, 0.9), "chair", at=(2.9, 1.5, 0)))
+    propagate(weights="table 0")
+    (at_desk,) = results()
+    assert tuple(at_desk.location) == pytest.approx((7.9, 0.5, 0), abs=0.02)
+    propagate(weights="desk 0")
+    (at_table,) = results()
+    assert math.dist(at_table.location, (7.0, 1.5, 0)) == pytest.approx(0.9, abs=0.02)
 
 
 def test_propagate_is_one_step_of_undo():

@@ -130,7 +130,7 @@ def nothing_at_all():
     pass
 
 
-PROPAGATE = lambda: bpy.ops.geoanalogy.propagate(EXEC, True)  # noqa: E731
+PROPAGATE = lambda **k: bpy.ops.geoanalogy.propagate(EXEC, True, **k)  # noqa: E731
 REPLAY = lambda: bpy.ops.geoanalogy.replay(EXEC, True)  # noqa: E731
 TRANSFER = lambda: bpy.ops.geoanalogy.transfer(EXEC, True)  # noqa: E731
 ARRAY = lambda **k: bpy.ops.geoanalogy.array(EXEC, True, **k)  # noqa: E731
@@ -152,6 +152,15 @@ CASES = [
     (end_is_no_empty, ARRAY, "object 'Stop' is to mark the array's end, but is no empty"),
     (outside, ARRAY, "object 'Bed': the example at x 50"),
     (bed_in_rooms := lambda: (rooms(), bed()), lambda: ARRAY(spacing=0.0), "the spacing of the array is 0"),
+    (
+        bed_in_rooms,
+        lambda: PROPAGATE(clearance="door"),
+        "the clearance 'door' cannot be read; write a label and a number",
+    ),
+    (bed_in_rooms, lambda: PROPAGATE(clearance="door 1, 0.5"), "the clearance '0.5' cannot be read"),
+    (bed_in_rooms, lambda: PROPAGATE(clearance="door -1"), "the clearance 'door -1' cannot be read"),
+    (bed_in_rooms, lambda: PROPAGATE(weights="bed nan"), "the weight 'bed nan' cannot be read"),
+    (bed_in_rooms, lambda: PROPAGATE(weights="bed 1, bed 2"), "the weight of 'bed' is given twice"),
     (nothing_at_all, TRANSFER, "nothing is selected; select the objects to transfer"),
     (far_from_each_other, TRANSFER, "select objects of one polygon"),
     (mixed_group, TRANSFER, "select either results or objects of your own"),
