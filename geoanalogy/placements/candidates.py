@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from .arrangement import PARENT, Arrangement
 from .lesson import Lesson
 from .signature import BOX, PARENT_BOX
+from .turns import flipped
 
 Array = NDArray[np.float64]
 
@@ -142,11 +143,11 @@ def _from_parent(lesson: Lesson, arrangement: Arrangement) -> Array:
     """
     values = _with_middle(lesson.kept.boxes[PARENT_BOX][lesson.positive, 0])
     low, high = arrangement.parent_box[None, :2], arrangement.parent_box[None, 2:]
-    flipped = _flipped(values)
+    mirrored = flipped(values)
     found = []
     for along_x, along_y in ((0, 1), (1, 0)):
-        x = [extents(v[:, along_x], low[:, 0], high[:, 0]) for v in (values, flipped)]
-        y = [extents(v[:, along_y], low[:, 1], high[:, 1]) for v in (values, flipped)]
+        x = [extents(v[:, along_x], low[:, 0], high[:, 0]) for v in (values, mirrored)]
+        y = [extents(v[:, along_y], low[:, 1], high[:, 1]) for v in (values, mirrored)]
         found.append(crossings(np.concatenate(x, axis=2), np.concatenate(y, axis=2)))
     if not arrangement.parent_fills_box:
         corners = arrangement.turned(arrangement.outlines[PARENT].corner_vertex)
@@ -154,19 +155,13 @@ def _from_parent(lesson: Lesson, arrangement: Arrangement) -> Array:
         near = np.where(
             (np.abs(values[:, :, 0, 0]) <= np.abs(values[:, :, 2, 1]))[..., None],
             values[:, :, [0, 2], 0],
-            flipped[:, :, [0, 2], 0],
+            mirrored[:, :, [0, 2], 0],
         )
         for order in ((0, 1), (1, 0)):
             ways = [np.stack([s, s[..., ::-1] * -1], axis=1) for s in (near[:, order[0]], near[:, order[1]])]
             x, y = (corners[None, :, None, None, axis] + ways[axis][:, None] for axis in (0, 1))
             found.append(crossings(x, y))
     return np.concatenate(found)
-
-
-def _flipped(values: Array) -> Array:
-    """Box coordinates (..., 3, 4) of the mirrored box."""
-    turned = values[..., ::-1, :]
-    return np.stack([-turned[..., 1], -turned[..., 0], -turned[..., 2], 1.0 - turned[..., 3]], axis=-1)
 
 
 def most_predicted(low: Array, high: Array, cell: float, count: int) -> Array:

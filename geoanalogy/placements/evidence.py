@@ -7,9 +7,10 @@ from ..relations.table import Kind
 from .arrangement import Arrangement
 from .boxes import distances, interval_overlap, overlap
 from .candidates import rhythm
-from .lesson import Lesson, Match, coverage
+from .lesson import Lesson, Match
 from .signature import BOX, PARENT_BOX, Signature
 from .similarity import SIGMA
+from .taught import coverage
 
 Array = NDArray[np.float64]
 
@@ -116,7 +117,7 @@ def single_evidence(
     rx, ry, rj = reliable[of_boxes, 0], reliable[of_boxes, 1], reliable[:, 2]
     parent = matches[PARENT_BOX]
     in_parent = lesson.reliability[PARENT_BOX]
-    habit, explained = lesson.habitual(seen)
+    habit, explained = lesson.habits.kept_to(seen)
     like = _like_parents(lesson, arrangement)
     size = np.log(boxes[:, 2:] - boxes[:, :2])
     taught_size = np.log(lesson.sizes[p])

@@ -1,18 +1,19 @@
 """What a set of examples has in common: weights of relations and similarities among the examples."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.rectangle import Rectangle
-from .arrangement import Arrangement
-from .boxes import BETWEEN, areas, shared_areas
+from .boxes import BETWEEN
+from .habits import Habits
 from .options import PlacementOptions
-from .signature import BOX, PARENT_BOX, SAMPLE_COUNTS, Signature, signature
+from .signature import BOX, PARENT_BOX, SAMPLE_COUNTS, Signature
 from .similarity import best_assignment, box_agreement, length_widths, outline_agreement
+from .taught import Taught
+from .turns import in_units, parent_sizes
 
 Array = NDArray[np.float64]
 
@@ -23,90 +24,6 @@ PRIOR_RELIABILITY = 0.7
 #: Share of the positive examples that must lie between two elements for their gap to be one: there are as many kinds of
 #: gaps as pairs of labels, and most mean nothing.
 LEAST_BETWEEN = 0.75
-
-
-#: Scatter of a coordinate below which examples agree in it exactly, in widths of the Gaussians.
-HABIT_FLOOR = 0.3
-
-
-@dataclass(frozen=True)
-class Taught:
-    """One example, as a model keeps it: without its scene.
-
-    Attributes
-    ----------
-    rectangle : Rectangle
-        In the example's scene.
-    size : ndarray of shape (2,)
-        Its extent along the frame's axes.
-    quarter : int
-        Quarter turns from the frame to its direction.
-    target : float
-    fingerprint : str
-        Of the arrangement it was drawn in.
-    outside : float
-        Share of it that lies outside its parent.
-    covered, touched : dict of str to float
-        By label: the share of it that elements cover, and the largest share of one element that it covers.
-    """
-
-    rectangle: Rectangle
-    size: Array
-    quarter: int
-    target: float
-    fingerprint: str
-    outside: float
-    covered: dict[str, float]
-    touched: dict[str, float]
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data, as it is written to JSON."""
-        r = self.rectangle
-        return {
-            "rectangle": [r.x, r.y, r.width, r.height, r.angle],
-            "size": self.size.tolist(),
-            "quarter": self.quarter,
-            "target": self.target,
-            "fingerprint": self.fingerprint,
-            "outside": self.outside,
-            "covered": self.covered,
-            "touched": self.touched,
-        }
-
-    @classmethod
-    def from_dict(cls, plain: dict[str, Any]) -> "Taught":
-        """The inverse of `to_dict`."""
-        return cls(
-            **{
-                **plain,
-                "rectangle": Rectangle(*plain["rectangle"]),
-                "size": np.array(plain["size"], dtype=np.float64),
-            }
-        )
-
-
-def coverage(arrangement: Arrangement, boxes: Array) -> tuple[dict[str, Array], dict[str, Array]]:
-    """How boxes overlap the drawn elements of every label.
-
-    Parameters
-    ----------
-    arrangement : Arrangement
-    boxes : ndarray of shape (n, 4)
-
-    Returns
-    -------
-    covered : dict of str to ndarray of shape (n,)
-        Share of the box that lies under elements of the label (at most 1).
-    touched : dict of str to ndarray of shape (n,)
-        Largest share of a single element that lies under the box.
-    """
-    covered, touched = {}, {}
-    own = areas(boxes)
-    for label, elements in arrangement.drawn.items():
-        shared = shared_areas(boxes, elements)
-        covered[label] = np.minimum(shared.sum(axis=1) / own, 1.0)
-        touched[label] = np.minimum((shared / areas(elements)[None]).max(axis=1), 1.0)
-    return covered, touched
 
 
 @dataclass(frozen=True)
@@ -326,62 +243,16 @@ class Lesson:
         return found
 
     @cached_property
-    def habits(self) -> dict[str, tuple[Array, Array, Array]]:
-        """What each edge keeps to, by group: medians of its box coordinates, their scatter, and their weights.
+    def habits(self) -> Habits:
+        """What each edge of the positive examples keeps to."""
+        return Habits(self.kept.rows(self.positive), self.widths[:2])
 
-        Of all coordinates of an edge, to the nearest element of any group, those that scatter least among the positive
-        examples weigh most: it is what the edge follows, be it the window's corner or a share of the parent.
-
-        Returns
-        -------
-        dict of str to tuple of ndarray
-            Arrays of shape (2, 2, 4): axis, edge (low, high), coordinate; the scatter in scene units; weights add up
-            to 1 over the groups and coordinates of an edge.
-        """
-        found: dict[str, tuple[Array, Array, Array]] = {}
-        floor = HABIT_FLOOR * self.widths[:2, None, None]
-        for key, values in self.kept.boxes.items():
-            edges = values[self.positive, 0][:, :, [0, 2]]
-            if not np.isfinite(edges).all():
-                continue
-            middle = np.median(edges, axis=0)
-            scatter = edges.std(axis=0)
-            scatter[..., 3] *= (edges[..., 0] - edges[..., 1]).mean(axis=0)  # shares of the elements' mean extent
-            found[key] = middle, scatter, 1.0 / (scatter**2 + floor**2)
-        whole = sum(weight.sum(axis=2, keepdims=True) for _, _, weight in found.values())
-        return {key: (middle, scatter, weight / whole) for key, (middle, scatter, weight) in found.items()}
-
-    def habitual(self, seen: Signature) -> tuple[Array, Array]:
-        """How well each edge of boxes keeps to what it keeps to among the examples.
-
-        Parameters
-        ----------
-        seen : Signature
-            Of n boxes.
-
-        Returns
-        -------
-        kept : ndarray of shape (n, 2, 2)
-            By axis and edge (low, high), between 0 and 1: in all coordinates, by their weights.
-        explained : ndarray of shape (n, 2, 2)
-            In the best of the coordinates that the examples agree in exactly; 1 where there is none. Whatever is drawn
-            by a rule, however many rules would do, keeps to one of them.
-        """
-        n = len(seen.boxes[PARENT_BOX])
-        kept, explained, exact = np.zeros((n, 2, 2)), np.zeros((n, 2, 2)), np.zeros((2, 2), dtype=bool)
-        for key, (middle, scatter, weight) in self.habits.items():
-            tight = scatter <= HABIT_FLOOR * self.widths[:2, None, None]
-            exact |= tight.any(axis=2)
-            if key not in seen.boxes:
-                continue
-            edges = seen.boxes[key][:, 0][:, :, [0, 2]]
-            off = edges - middle
-            off[..., 3] *= edges[..., 0] - edges[..., 1]
-            width = scatter + self.widths[:2, None, None]
-            agreement = np.nan_to_num(np.exp(-0.5 * (off / width) ** 2))
-            kept += (weight * agreement).sum(axis=3)
-            explained = np.maximum(explained, (tight * agreement).max(axis=3))
-        return kept, np.where(exact, explained, 1.0)
+    @cached_property
+    def relative(self) -> "Lesson":
+        """The same lesson with lengths in shares of the parents' sizes: what is learned from plans of many scales."""
+        units = np.sqrt(parent_sizes(self.kept).prod(axis=1))
+        taught = [replace(t, size=t.size / unit) for t, unit in zip(self.taught, units, strict=True)]
+        return Lesson(taught, in_units(self.kept, units), self.options)
 
     @cached_property
     def one_each(self) -> bool:
@@ -415,39 +286,3 @@ def _side_by_side(parts: list[dict[str, Array]]) -> dict[str, Array]:
         key: np.concatenate([part.get(key, np.full((1, *shapes[key][1:]), np.nan)) for part in parts])
         for key in sorted(shapes)
     }
-
-
-def teach(
-    arrangement: Arrangement, rectangle: Rectangle, target: float, options: PlacementOptions
-) -> tuple[Taught, Signature]:
-    """What is kept of one example.
-
-    Parameters
-    ----------
-    arrangement : Arrangement
-        Where it was drawn.
-    rectangle : Rectangle
-    target : float
-    options : PlacementOptions
-
-    Returns
-    -------
-    taught : Taught
-    kept : Signature
-        One row.
-    """
-    box, quarter = rectangle.box(arrangement.frame)
-    covered, touched = coverage(arrangement, box[None])
-    return (
-        Taught(
-            rectangle,
-            box[2:] - box[:2],
-            quarter,
-            target,
-            arrangement.fingerprint,
-            float(arrangement.share_outside(box[None])[0]),
-            {label: float(v[0]) for label, v in covered.items()},
-            {label: float(v[0]) for label, v in touched.items()},
-        ),
-        signature(arrangement, box[None], options.neighbours),
-    )

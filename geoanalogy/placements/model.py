@@ -17,13 +17,14 @@ from ..progress import Progress, Stepper, run
 from ..tolerances import PARALLEL_ANGLE
 from .arrangement import Arrangement, arrangement_of
 from .examples import Example, Orientation, checked, nearest_directions, orientation_of, parents_of
-from .lesson import Lesson, Taught, coverage, teach
+from .lesson import Lesson
 from .options import PlacementOptions
 from .regression import predicted_targets
 from .rule import Relation, learned_rule, reasons
 from .selection import rescaled, shape_factor, useful_cut, without_overlaps
 from .signature import Signature, signature
 from .survey import Survey, refined, survey
+from .taught import Taught, coverage, teach
 
 Array = NDArray[np.float64]
 

@@ -221,8 +221,22 @@ def outline_kinds(key: str) -> tuple[tuple[Kind, ...], tuple[float, ...]]:
     periods : tuple of float
         inf where values never wrap.
     """
-    element = next(e for e in OUTLINE_RELATIONS if key.startswith(f"{e.value}s of "))
-    names = OUTLINE_RELATIONS[element]
+    names = outline_relations_of(key)
     # A closed segment's arc length wraps; that of an open one does not, and a smooth closed ring has nothing else.
     periods = tuple(2.0 if name == "corner ratio" else np.inf for name in names)
     return tuple(RELATIONS[name].kind for name in names), periods
+
+
+def outline_relations_of(key: str) -> tuple[str, ...]:
+    """Names of the relations of an outline group, in the order of their last dimension.
+
+    Parameters
+    ----------
+    key : str
+        The group's key.
+
+    Returns
+    -------
+    tuple of str
+    """
+    return OUTLINE_RELATIONS[next(e for e in OUTLINE_RELATIONS if key.startswith(f"{e.value}s of "))]

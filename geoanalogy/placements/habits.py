@@ -1,0 +1,90 @@
+"""What each edge of the examples keeps to most closely."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .signature import PARENT_BOX, Signature
+
+Array = NDArray[np.float64]
+
+#: Scatter of a coordinate below which examples agree in it exactly, in widths of the Gaussians.
+HABIT_FLOOR = 0.3
+
+
+@dataclass(frozen=True)
+class Habit:
+    """What edges keep to among the coordinates of one group; arrays of shape (2, 2, 4): axis, edge, coordinate.
+
+    Attributes
+    ----------
+    middle, scatter : ndarray
+        Median of each coordinate, and its scatter in scene units.
+    weight : ndarray
+        Adds up to 1 over the groups and coordinates of an edge.
+    """
+
+    middle: Array
+    scatter: Array
+    weight: Array
+
+
+class Habits:
+    """The habits of each edge (low and high, along x and y).
+
+    Of all coordinates of an edge, to the nearest element of any group, those that scatter least among the positive
+    examples weigh most: it is what the edge follows, be it the window's corner or a share of the parent.
+
+    Parameters
+    ----------
+    kept : Signature
+        Of the positive examples.
+    widths : ndarray of shape (2,)
+        Of the Gaussians of lengths along x and y.
+    """
+
+    def __init__(self, kept: Signature, widths: Array) -> None:
+        self.widths = widths[:, None, None]
+        floor = HABIT_FLOOR * self.widths
+        found: dict[str, Habit] = {}
+        for key, values in kept.boxes.items():
+            edges = values[:, 0][:, :, [0, 2]]
+            if not np.isfinite(edges).all():
+                continue
+            scatter = edges.std(axis=0)
+            scatter[..., 3] *= (edges[..., 0] - edges[..., 1]).mean(axis=0)  # shares of the elements' mean extent
+            found[key] = Habit(np.median(edges, axis=0), scatter, 1.0 / (scatter**2 + floor**2))
+        whole = sum(habit.weight.sum(axis=2, keepdims=True) for habit in found.values())
+        self.of = {key: Habit(h.middle, h.scatter, h.weight / whole) for key, h in found.items()}
+
+    def kept_to(self, seen: Signature) -> tuple[Array, Array]:
+        """How well each edge of boxes keeps to what it keeps to among the examples.
+
+        Parameters
+        ----------
+        seen : Signature
+            Of n boxes.
+
+        Returns
+        -------
+        kept : ndarray of shape (n, 2, 2)
+            By axis and edge (low, high), between 0 and 1: in all coordinates, by their weights.
+        explained : ndarray of shape (n, 2, 2)
+            In the best of the coordinates that the examples agree in exactly; 1 where there is none. Whatever is drawn
+            by a rule, however many rules would do, keeps to one of them.
+        """
+        n = len(seen.boxes[PARENT_BOX])
+        kept, explained, exact = np.zeros((n, 2, 2)), np.zeros((n, 2, 2)), np.zeros((2, 2), dtype=bool)
+        for key, habit in self.of.items():
+            tight = habit.scatter <= HABIT_FLOOR * self.widths
+            exact |= tight.any(axis=2)
+            if key not in seen.boxes:
+                continue
+            edges = seen.boxes[key][:, 0][:, :, [0, 2]]
+            off = edges - habit.middle
+            off[..., 3] *= edges[..., 0] - edges[..., 1]
+            agreement = np.nan_to_num(np.exp(-0.5 * (off / (habit.scatter + self.widths)) ** 2))
+            kept += (habit.weight * agreement).sum(axis=3)
+            explained = np.maximum(explained, (tight * agreement).max(axis=3))
+        return kept, np.where(exact, explained, 1.0)

@@ -1,0 +1,131 @@
+"""What a model keeps of one example."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..geometry.rectangle import Rectangle
+from .arrangement import Arrangement
+from .boxes import areas, shared_areas
+from .options import PlacementOptions
+from .signature import Signature, signature
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Taught:
+    """One example, as a model keeps it: without its scene.
+
+    Attributes
+    ----------
+    rectangle : Rectangle
+        In the example's scene.
+    size : ndarray of shape (2,)
+        Its extent along the frame's axes.
+    quarter : int
+        Quarter turns from the frame to its direction.
+    target : float
+    fingerprint : str
+        Of the arrangement it was drawn in.
+    outside : float
+        Share of it that lies outside its parent.
+    covered, touched : dict of str to float
+        By label: the share of it that elements cover, and the largest share of one element that it covers.
+    """
+
+    rectangle: Rectangle
+    size: Array
+    quarter: int
+    target: float
+    fingerprint: str
+    outside: float
+    covered: dict[str, float]
+    touched: dict[str, float]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data, as it is written to JSON."""
+        r = self.rectangle
+        return {
+            "rectangle": [r.x, r.y, r.width, r.height, r.angle],
+            "size": self.size.tolist(),
+            "quarter": self.quarter,
+            "target": self.target,
+            "fingerprint": self.fingerprint,
+            "outside": self.outside,
+            "covered": self.covered,
+            "touched": self.touched,
+        }
+
+    @classmethod
+    def from_dict(cls, plain: dict[str, Any]) -> "Taught":
+        """The inverse of `to_dict`."""
+        return cls(
+            **{
+                **plain,
+                "rectangle": Rectangle(*plain["rectangle"]),
+                "size": np.array(plain["size"], dtype=np.float64),
+            }
+        )
+
+
+def coverage(arrangement: Arrangement, boxes: Array) -> tuple[dict[str, Array], dict[str, Array]]:
+    """How boxes overlap the drawn elements of every label.
+
+    Parameters
+    ----------
+    arrangement : Arrangement
+    boxes : ndarray of shape (n, 4)
+
+    Returns
+    -------
+    covered : dict of str to ndarray of shape (n,)
+        Share of the box that lies under elements of the label (at most 1).
+    touched : dict of str to ndarray of shape (n,)
+        Largest share of a single element that lies under the box.
+    """
+    covered, touched = {}, {}
+    own = areas(boxes)
+    for label, elements in arrangement.drawn.items():
+        shared = shared_areas(boxes, elements)
+        covered[label] = np.minimum(shared.sum(axis=1) / own, 1.0)
+        touched[label] = np.minimum((shared / areas(elements)[None]).max(axis=1), 1.0)
+    return covered, touched
+
+
+def teach(
+    arrangement: Arrangement, rectangle: Rectangle, target: float, options: PlacementOptions
+) -> tuple[Taught, Signature]:
+    """What is kept of one example.
+
+    Parameters
+    ----------
+    arrangement : Arrangement
+        Where it was drawn.
+    rectangle : Rectangle
+    target : float
+    options : PlacementOptions
+
+    Returns
+    -------
+    taught : Taught
+    kept : Signature
+        One row.
+    """
+    box, quarter = rectangle.box(arrangement.frame)
+    covered, touched = coverage(arrangement, box[None])
+    return (
+        Taught(
+            rectangle,
+            box[2:] - box[:2],
+            quarter,
+            target,
+            arrangement.fingerprint,
+            float(arrangement.share_outside(box[None])[0]),
+            {label: float(v[0]) for label, v in covered.items()},
+            {label: float(v[0]) for label, v in touched.items()},
+        ),
+        signature(arrangement, box[None], options.neighbours),
+    )
