@@ -2,11 +2,11 @@
 
 import bpy
 
-from ..geoanalogy.blender.corrections import forget_all
-from .edit import Edit, active_operation, needs_operations
+from ..geoanalogy.blender.placement_recording import forgotten_steps
+from .edit import LongEdit, active_operation, needs_operations
 
 
-class GEOANALOGY_OT_forget_decisions(Edit, bpy.types.Operator):
+class GEOANALOGY_OT_forget_decisions(LongEdit, bpy.types.Operator):
     """Take back everything accepted, rejected and moved of the active operation"""
 
     bl_idname = "geoanalogy.forget_decisions"
@@ -16,9 +16,10 @@ class GEOANALOGY_OT_forget_decisions(Edit, bpy.types.Operator):
     def poll(cls, context):
         return needs_operations(cls, context)
 
-    def edit(self, context):
+    def steps(self, context):
         """Take the verdicts back."""
-        return f"{forget_all(context, active_operation(context))} decisions taken back"
+        count = yield from forgotten_steps(context, active_operation(context))
+        return f"{count} decisions taken back"
 
 
 def register():

@@ -2,12 +2,13 @@
 
 import bpy
 
-from ..geoanalogy.blender.corrections import decide, selected_results
-from .edit import Edit, needs_operations
+from ..geoanalogy.blender.corrections import selected_results
+from ..geoanalogy.blender.placement_recording import rejected_steps
+from .edit import LongEdit, needs_operations
 
 
-class GEOANALOGY_OT_reject(Edit, bpy.types.Operator):
-    """Remove the selected results, and keep them from coming back"""
+class GEOANALOGY_OT_reject(LongEdit, bpy.types.Operator):
+    """Remove the selected results, and keep them from coming back; what was learned from examples is learned again"""
 
     bl_idname = "geoanalogy.reject"
     bl_label = "Reject"
@@ -16,9 +17,10 @@ class GEOANALOGY_OT_reject(Edit, bpy.types.Operator):
     def poll(cls, context):
         return needs_operations(cls, context)
 
-    def edit(self, context):
+    def steps(self, context):
         """Write the verdict."""
-        return f"{decide(context, selected_results(context), 'reject')} rejected"
+        count = yield from rejected_steps(context, selected_results(context))
+        return f"{count} rejected"
 
 
 def register():

@@ -43,6 +43,7 @@ def _icon(kind):
         "local coordinates": "MOD_LATTICE",
         "scatter": "STICKY_UVS_DISABLE",
         "choice": "RNDCURVE",
+        "placement": "SELECT_SET",
     }
     return icons.get(kind, "NODE")
 

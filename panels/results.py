@@ -4,9 +4,16 @@ import bpy
 
 from ..geoanalogy.blender import names
 from ..geoanalogy.blender.explanation import explanation_of
+from ..geoanalogy.blender.learned import novelty_of, rule_of, targets_of
 from ..geoanalogy.blender.tree_store import operation_nodes, tree_of
 from ..geoanalogy.blender.tree_types import stored_settings
 from .base import SidebarPanel, hint
+
+#: Relations and polygons that are listed.
+MOST_LISTED = 4
+
+#: Novelty from which an example more would help.
+UNFAMILIAR = 0.4
 
 
 class GEOANALOGY_PT_results(SidebarPanel, bpy.types.Panel):
@@ -34,7 +41,25 @@ class GEOANALOGY_PT_results(SidebarPanel, bpy.types.Panel):
         problem = node.get(names.PROBLEM)
         if problem:
             hint(layout, problem, "ERROR")
+        self._draw_learned(context, layout, node)
         self._draw_reasons(context, layout)
+
+    def _draw_learned(self, context, layout, node):
+        rule = rule_of(node)
+        if rule:
+            box = layout.box()
+            box.label(text="Learned", icon="INFO")
+            for relation in rule[:MOST_LISTED]:
+                box.progress(factor=relation.share, type="BAR", text=relation.text)
+        unfamiliar = [target for target in targets_of(node) if target.novelty >= UNFAMILIAR] if rule else []
+        if unfamiliar:
+            box = layout.box()
+            box.label(text="Unlike the examples; add one there", icon="QUESTION")
+            for target in unfamiliar[:MOST_LISTED]:
+                box.progress(factor=target.novelty, type="BAR", text=f"{target.name}  {target.novelty:.2f}")
+        novelty = novelty_of(context.active_object, node)
+        if novelty is not None:
+            hint(layout, f"Novelty of {context.active_object.name}: {novelty:.2f}")
 
     def _draw_reasons(self, context, layout):
         item = context.active_object

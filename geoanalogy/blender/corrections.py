@@ -8,14 +8,16 @@ import numpy as np
 
 from ..errors import InputError
 from ..operations.decisions import Decisions, Pin
+from ..operations.element import Element
 from ..operations.node import Node
 from ..poses.pose import Pose
 from ..tolerances import CONTAINED_SHARE
 from . import names
 from .evaluating import mark_stale
 from .footprints import pose_of
-from .refresh import proposed_by, show, stored_layout
-from .tree_store import engine_node, require_operations, write_operation
+from .planes import Plane
+from .refresh import layout_at, proposed_by, show, stored_layout
+from .tree_store import engine_node, placed_by, require_operations, works_everywhere, write_operation
 
 #: Distance, in scene units, and angle, in radians, from its place below which a result has not been moved: single
 #: precision at a kilometre from the origin.
@@ -130,22 +132,38 @@ def _write_decisions(context: bpy.types.Context, node: bpy.types.Node, engine: N
 
 def _pins(context: bpy.types.Context, node: bpy.types.Node, items: Iterable[bpy.types.Object]) -> dict[str, Pin]:
     """Where those results stand that have been moved, by their keys."""
-    ground, layout = stored_layout(context.scene, node)
+    layouts = stored_layout(context.scene, node)
     proposed = {e.key: e for e in proposed_by(node)}
+    rests = {one.mesh: one.rest for one in placed_by(node)}
     found = {}
     for item in items:
         e = proposed.get(item[names.KEY])
-        pose = pose_of(item, ground.plane)
-        if e is None or _is_at(pose, e.pose):
+        at = None if e is None else layout_at(layouts, e)
+        if at is None:
+            continue
+        ground, layout = at
+        if works_everywhere(node):
+            pose = _pose_of_placed(item, e, rests[e.mesh], ground.plane)
+        else:
+            pose = pose_of(item, ground.plane)
+        if _is_at(pose, e.pose):
             continue
         pose = replace(pose, mirrored=e.pose.mirrored)
-        ring = pose.to_scene(e.scale * np.array(e.footprint or [(0.0, 0.0)]))
+        ring = pose.to_scene(e.scale * np.array(e.stretch) * np.array(e.footprint or [(0.0, 0.0)]))
         parent = layout.scene.parent_of_shape(ring, CONTAINED_SHARE) if e.footprint else None
         parent = parent or layout.scene.parent_of(pose.position)
         if parent is None:
             raise InputError(f"object {item.name!r} lies outside every polygon; put it into one to keep it there")
         found[e.key] = Pin.of(pose, parent, e.scale)
     return found
+
+
+def _pose_of_placed(item: bpy.types.Object, e: Element, rest: np.ndarray, plane: Plane) -> Pose:
+    """The pose that a result of a placement stands for: the centre and the direction of its rectangle."""
+    frame = np.array(item.matrix_world) @ np.linalg.inv(np.diag((*np.multiply(e.scale, e.stretch), 1.0, 1.0)) @ rest)
+    x, y, _ = plane.to_plane([frame[:3, 3]])[0]
+    axis = plane.frame[:3, :3].T @ frame[:3, 0]
+    return Pose((x, y), float(np.arctan2(axis[1], axis[0])))
 
 
 def _is_at(one: Pose, other: Pose) -> bool:

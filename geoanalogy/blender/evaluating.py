@@ -4,7 +4,7 @@ Everything is read before the first step and written after the last one, so that
 the scene as it was.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
@@ -12,6 +12,7 @@ from typing import Any
 import bpy
 
 from ..errors import InputError
+from ..geometry.scene import Scene
 from ..operations.element import Element
 from ..operations.evaluation import Evaluations
 from ..operations.layout import Layout
@@ -23,8 +24,8 @@ from .ground import Ground, read_grounds
 from .instances import write_results
 from .planes import Plane
 from .proposals import write_proposals
-from .refresh import examples_of, ground_for
-from .tree_store import engine_tree, ordered_nodes, placed_by, plane_of, sources_of, tree_of
+from .refresh import examples_of, ground_for, in_order
+from .tree_store import engine_tree, ordered_nodes, placed_by, plane_of, sources_of, tree_of, works_everywhere
 
 
 class TimedEvaluations(Evaluations):
@@ -32,29 +33,44 @@ class TimedEvaluations(Evaluations):
 
     Attributes
     ----------
-    proposed : dict of str to object
-        By the node's id, of its last evaluation.
-    seconds : dict of str to float
+    proposed : dict of (str, str) to object
+        By the node's id and the name of its ground, of its last evaluation there.
+    seconds : dict of (str, str) to float
     """
 
     def __init__(self) -> None:
         super().__init__()
-        self.proposed: dict[str, Any] = {}
-        self.seconds: dict[str, float] = {}
+        self.proposed: dict[tuple[str, str], Any] = {}
+        self.seconds: dict[tuple[str, str], float] = {}
 
     def proposal(self, node: Node, layout: Layout, seed: int) -> Stepper[Any]:
         """What a node proposes; what was computed for it is timed."""
         computed, started = self.evaluated, perf_counter()
         proposed = yield from super().proposal(node, layout, seed)
-        self.proposed[node.id] = proposed
+        where = node.id, ground_name(layout.ground)
+        self.proposed[where] = proposed
         if self.evaluated > computed:
-            self.seconds[node.id] = perf_counter() - started
+            self.seconds[where] = perf_counter() - started
         return proposed
 
     def clear(self) -> None:
         """Forget everything."""
         for kept in (self._kept, self.proposed, self.seconds):
             kept.clear()
+
+
+def ground_name(scene: Scene) -> str:
+    """What tells the grounds of a file apart: the id of the first polygon.
+
+    Parameters
+    ----------
+    scene : Scene
+
+    Returns
+    -------
+    str
+    """
+    return str(scene.polygons[0].id)
 
 
 #: What has been evaluated in this session, by content: nothing in it is ever out of date.
@@ -75,7 +91,7 @@ class Surroundings:
     nodes : list of bpy.types.Node
         The operations on that plane, inputs first.
     engine : OperationsTree
-        The same as the engine's.
+        All operations as the engine's; those on other planes pass on what comes in.
     """
 
     scene: bpy.types.Scene
@@ -89,6 +105,11 @@ class Surroundings:
     def plane(self) -> Plane:
         """The plane of the ground."""
         return self.ground.plane
+
+    @property
+    def name(self) -> str:
+        """The name of the ground."""
+        return ground_name(self.ground.scene)
 
     @property
     def seed(self) -> int:
@@ -122,15 +143,17 @@ def read_surroundings(context: bpy.types.Context, items: Iterable[bpy.types.Obje
     without = examples_of(tree) | {item.name for item in items}
     grounds = read_grounds(scene, depsgraph, without)
     nodes = ordered_nodes(tree)
-    where = {node.name: ground_for(grounds, plane_of(node)) for node in nodes}
+    where = {node.name: None if works_everywhere(node) else ground_for(grounds, plane_of(node)) for node in nodes}
     for node in nodes:
         # A node goes where its source is: it builds on what that has placed.
         for source, _ in sources_of(node):
-            where[node.name] = where[source.name]
+            if where[node.name] is not None and where[source.name] is not None:
+                where[node.name] = where[source.name]
     found = []
     for ground in grounds:
-        own = [node for node in nodes if where[node.name] is ground]
-        found.append(Surroundings(scene, depsgraph, tree, ground, own, engine_tree(own, evaluations)))
+        own = [node for node in nodes if where[node.name] is None or where[node.name] is ground]
+        engine = engine_tree(nodes, evaluations, working={node.name for node in own})
+        found.append(Surroundings(scene, depsgraph, tree, ground, own, engine))
     return found
 
 
@@ -152,15 +175,14 @@ def incoming_steps(around: Surroundings, node: str) -> Stepper[Layout]:
     return muted.layout_steps(around.ground.scene, node, around.seed)
 
 
-def write_node(around: Surroundings, node: bpy.types.Node, elements: Iterable[Element]) -> int:
+def write_node(node: bpy.types.Node, evaluated: Sequence[tuple[Surroundings, Iterable[Element]]]) -> int:
     """Write what an evaluated node has proposed, and show what has passed.
 
     Parameters
     ----------
-    around : Surroundings
     node : bpy.types.Node
-    elements : iterable of Element
-        What has passed; those of other nodes are left out.
+    evaluated : sequence of (Surroundings, iterable of Element)
+        The grounds that it works on, and what has passed on each; elements of other nodes are left out.
 
     Returns
     -------
@@ -169,13 +191,14 @@ def write_node(around: Surroundings, node: bpy.types.Node, elements: Iterable[El
     """
     if not node.mute:
         # Selections propose other things than elements; they place nothing.
-        proposed = (e for e in evaluations.proposed.get(node.name, ()) if isinstance(e, Element))
+        places = [(node.name, around.name) for around, _ in evaluated]
+        proposed = (e for place in places for e in evaluations.proposed.get(place, ()) if isinstance(e, Element))
         node[names.RESULTS] = write_proposals(proposed)
-        node[names.SECONDS] = evaluations.seconds.get(node.name, 0.0)
+        node[names.SECONDS] = sum(evaluations.seconds.get(place, 0.0) for place in places)
     for key in (names.STALE, names.PROBLEM):
         node.pop(key, None)
-    own = [] if node.mute else [e for e in elements if e.node == node.name]
-    node[names.COUNT] = write_results(around.scene, node.name, own, placed_by(node), around.plane)
+    standing = [] if node.mute else in_order(node, [(around.plane, elements) for around, elements in evaluated])
+    node[names.COUNT] = write_results(evaluated[0][0].scene, node.name, standing, placed_by(node))
     return node[names.COUNT]
 
 
@@ -194,25 +217,29 @@ def mark_stale(tree: bpy.types.NodeTree, node: bpy.types.Node) -> None:
             other[names.STALE] = True
 
 
-def surroundings_of(around: list[Surroundings], item: bpy.types.Object) -> Surroundings:
+def surroundings_of(
+    around: list[Surroundings], item: bpy.types.Object, point: Sequence[float] | None = None
+) -> Surroundings:
     """The plane that an object stands on.
 
     Parameters
     ----------
     around : list of Surroundings
     item : bpy.types.Object
+    point : sequence of three float, optional
+        What of it stands there, in the world; None: its origin.
 
     Returns
     -------
     Surroundings
-        Of the planes on which a polygon lies below its origin the nearest, else of all.
+        Of the planes on which a polygon lies below the point the nearest, else of all.
 
     Raises
     ------
     InputError
         Where the matrix of the object is not finite.
     """
-    origin = item.matrix_world.translation
+    origin = item.matrix_world.translation if point is None else point
     if not all(abs(v) < float("inf") for v in origin):
         raise InputError(f"object {item.name!r} has a location that is not finite; clear its transform")
 

@@ -6,13 +6,17 @@ import bpy
 import numpy as np
 
 from ..errors import InputError
+from ..geometry.scene import Scene
 from ..operations.element import Element
+from ..operations.keys import key_of
 from ..operations.pose_placement import PosePlacement
+from ..operations.rectangle_placement import LEAST_SCORE, RectanglePlacement, placement_key
 from ..operations.scatter_placement import ScatterPlacement
+from ..placements.model import PlacementModel
 from ..poses.arrangement import arrangement_of
 from ..poses.propagate import PoseModel
 from . import names
-from .refresh import proposed_by, stored_layout
+from .refresh import layout_at, proposed_by, stored_layout
 from .tree_store import engine_node, require_operations
 
 #: Relations that are listed, and the least part of the importance that is; the rest is one line.
@@ -90,14 +94,24 @@ def explain(context: bpy.types.Context, item: bpy.types.Object | None) -> tuple[
     model = getattr(operation, "model", None)
     if isinstance(operation, ScatterPlacement):
         model = operation.model.model
-    if e is None or not isinstance(operation, PosePlacement | ScatterPlacement):
+    known = isinstance(operation, PosePlacement | ScatterPlacement | RectanglePlacement)
+    at = layout_at(stored_layout(context.scene, node), e) if e is not None and known else None
+    if at is None:
         raise InputError(f"object {item.name!r} was not placed by single relations; there is nothing to list")
-    _, layout = stored_layout(context.scene, node)
-    reasons = _explained[_name(context.scene, item)] = _reasons(model, e, layout.scene)
+    find = _placement_reasons if isinstance(operation, RectanglePlacement) else _reasons
+    reasons = _explained[_name(context.scene, item)] = find(model, e, at[1].scene)
     return reasons
 
 
-def _reasons(model: PoseModel, e: Element, scene) -> tuple[Reason, ...]:
+def _placement_reasons(model: PlacementModel, e: Element, scene: Scene) -> tuple[Reason, ...]:
+    for placement in model.place(scene, LEAST_SCORE):
+        key = key_of((placement.rectangle.x, placement.rectangle.y), placement.parent)
+        if placement.parent.id == e.parent and key == placement_key(e.key):
+            return tuple(Reason(relation.text, relation.weight) for relation in placement.relations[:MOST_LISTED])
+    return (Reason("drawn as an example", 1.0),)
+
+
+def _reasons(model: PoseModel, e: Element, scene: Scene) -> tuple[Reason, ...]:
     target = arrangement_of(scene, scene.polygon(e.parent))
     fitting = [
         i for i in model.importances(target) if i.sense.mirrored == e.pose.mirrored and np.isclose(i.scale, e.scale)

@@ -73,9 +73,8 @@ def results_in(holder: bpy.types.Collection) -> list[bpy.types.Object]:
 def write_results(
     scene: bpy.types.Scene,
     node: str,
-    elements: Sequence[Element],
+    standing: Sequence[tuple[Element, Plane]],
     placed: Iterable[Placed],
-    plane: Plane,
     *,
     unmoved: bool = False,
 ) -> int:
@@ -86,11 +85,11 @@ def write_results(
     scene : bpy.types.Scene
     node : str
         Name of the node.
-    elements : sequence of Element
-        In order. An example is shown only where its object is not in the scene itself.
+    standing : sequence of (Element, Plane)
+        Elements in order, and the plane that each lies on. An example is shown only where its object is not in the
+        scene itself.
     placed : iterable of Placed
         The objects by their names in the operation; elements of others are left out.
-    plane : Plane
     unmoved : bool
         Whether results of the same key stand where they did: those at the beginning that stay the same are left alone,
         and a threshold that is moved only takes from the end, or adds there.
@@ -109,8 +108,8 @@ def write_results(
     by_mesh = {one.mesh: one for one in placed if one.item is not None}
     there = {one.mesh for one in by_mesh.values() if scene.objects.get(one.item.name) == one.item}
     children = _children_of([one.item for one in by_mesh.values()])
-    shown = [e for e in elements if e.mesh in by_mesh and not (e.example and e.mesh in there)]
-    left = _leave(holder, [e.key for e in shown]) if unmoved else 0
+    shown = [(e, p) for e, p in standing if e.mesh in by_mesh and not (e.example and e.mesh in there)]
+    left = _leave(holder, [e.key for e, _ in shown]) if unmoved else 0
     if not left:
         delete_results(holder)
     # Copies of what is selected would be selected too.
@@ -118,7 +117,7 @@ def write_results(
     selected = [item for item in family if item.select_get()]
     for item in selected:
         item.select_set(False)
-    for count, e in enumerate(shown[left:], left + 1):
+    for count, (e, plane) in enumerate(shown[left:], left + 1):
         one = by_mesh[e.mesh]
         made = one.item.copy()
         made.name = f"{node} {count:03d}"
@@ -145,7 +144,10 @@ def _leave(holder: bpy.types.Collection, keys: Sequence[str]) -> int:
 
 
 def _stand(made: bpy.types.Object, e: Element, rest: Array, plane: Plane) -> None:
-    """Put an object where an element stands: its own scale and tilt, mirrored by a negative y scale."""
+    """Put an object where an element stands: its own scale and tilt, mirrored by a negative y scale.
+
+    Of the object's own axes each is stretched as the direction is that it has on the plane.
+    """
     made.parent = None
     made.animation_data_clear()
     for constraint in list(made.constraints):
@@ -162,9 +164,10 @@ def _stand(made: bpy.types.Object, e: Element, rest: Array, plane: Plane) -> Non
     made.matrix_parent_inverse.identity()
     made.delta_location = made.delta_rotation_euler = (0.0, 0.0, 0.0)
     made.delta_scale = (1.0, 1.0, 1.0)
-    made.location = frame @ (e.scale * location)
+    stretch = Matrix.Diagonal((*e.stretch, 1.0))
+    made.location = frame @ (e.scale * (stretch @ location))
     made.rotation_euler = (frame.to_3x3() @ turn).to_euler("XYZ")
-    made.scale = e.scale * scale
+    made.scale = [e.scale * s * (stretch @ axis).length for s, axis in zip(scale, turn.col, strict=True)]
 
 
 def _children_of(items: Sequence[bpy.types.Object]) -> dict[str, list[bpy.types.Object]]:

@@ -30,7 +30,8 @@ from ..tolerances import CONTAINED_SHARE
 from . import names
 from .evaluating import Surroundings, incoming_steps
 from .footprints import footprint_of, pose_of
-from .tree_store import placed_by
+from .placement_lessons import relearned_placement_steps
+from .tree_store import placed_by, works_everywhere
 
 Array = NDArray[np.float64]
 
@@ -164,12 +165,13 @@ def learn_group(
     return GroupTransfer(parents[0], objects, options)
 
 
-def relearned_steps(around: Surroundings, node: bpy.types.Node) -> Stepper[Operation]:
+def relearned_steps(every: Sequence[Surroundings], node: bpy.types.Node) -> Stepper[Operation]:
     """A node's operation, learned again where its examples have been moved since.
 
     Parameters
     ----------
-    around : Surroundings
+    every : sequence of Surroundings
+        The planes that it works on.
     node : bpy.types.Node
 
     Returns
@@ -182,6 +184,9 @@ def relearned_steps(around: Surroundings, node: bpy.types.Node) -> Stepper[Opera
     InputError
         Where an example stands where it cannot be learned from, naming operation and object.
     """
+    if works_everywhere(node):
+        return (yield from relearned_placement_steps(every, node))
+    around = every[0]
     operation = around.engine.node(node.name).operation
     items = [one.item for one in placed_by(node)]
     here = all(item is not None and around.scene.objects.get(item.name) == item for item in items)

@@ -24,6 +24,12 @@ FACES = "ga_faces"
 #: On drawn objects: name of the object whose outline stands for it when results are validated: a door with its swing.
 VALIDATION = "ga_validation"
 
+#: On examples of a placement: how much they are wanted, from 1 to 0 (none: 1).
+TARGET = "ga_target"
+
+#: On rectangles that were drawn as examples: objects are to fill them.
+DRAWN = "ga_drawn"
+
 #: On results: the node that made them, and their key among its results.
 NODE, KEY = "ga_node", "ga_key"
 
@@ -35,6 +41,9 @@ TREE, OPERATION_NODE, LAYOUT_SOCKET = "GeoAnalogyTree", "GeoAnalogyOperation", "
 
 #: On nodes: the operation as nested properties, and what it has proposed.
 OPERATION, RESULTS, EXAMPLES, FRAME = "operation", "results", "examples", "frame"
+
+#: On nodes of placements: the learned rule in words, and the rejected results that it was learned from.
+RULE, REJECTED = "rule", "rejected"
 
 #: On nodes: how many results stand there, how long it took, whether something upstream has changed since, and what is
 #: wrong with it.

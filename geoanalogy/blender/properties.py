@@ -1,7 +1,7 @@
 """What GeoAnalogy keeps with each scene of a file."""
 
 import bpy
-from bpy.props import PointerProperty
+from bpy.props import PointerProperty, StringProperty
 
 from . import names
 
@@ -23,6 +23,14 @@ class GEOANALOGY_PG_scene(bpy.types.PropertyGroup):
         type=bpy.types.NodeTree,
         poll=_is_operations_tree,
         description="The operations tree of this scene",
+    )
+    element: PointerProperty(
+        name="Object",
+        type=bpy.types.Object,
+        description="What fills the places like the examples; none: the first example itself",
+    )
+    rectangle_label: StringProperty(
+        name="Label", default="example", description="What the rectangles are that are drawn as examples"
     )
 
 

@@ -7,6 +7,9 @@ from functools import lru_cache
 from ..operations.element import Element
 from ..poses.pose import Pose
 
+#: Stretch and novelty of most elements; they are not written.
+PLAIN = ((1.0, 1.0), 0.0)
+
 
 def write_proposals(elements: Iterable[Element]) -> str:
     """Elements of one node as text.
@@ -24,7 +27,8 @@ def write_proposals(elements: Iterable[Element]) -> str:
     for e in elements:
         kind = kinds.setdefault((e.label, e.mesh, e.footprint, e.surface), len(kinds))
         pose = [*e.pose.position, e.pose.angle, e.pose.mirrored]
-        rows.append([kind, e.parent, e.key, pose, e.scale, e.importance, e.example])
+        row = [kind, e.parent, e.key, pose, e.scale, e.importance, e.example]
+        rows.append(row if (e.stretch, e.novelty) == PLAIN else [*row, e.stretch, e.novelty])
     return json.dumps({"kinds": list(kinds), "elements": rows}, ensure_ascii=False, allow_nan=False)
 
 
@@ -52,8 +56,11 @@ def read_proposals(text: str, node: str) -> tuple[Element, ...]:
         for label, mesh, ring, surface in plain["kinds"]
     ]
     found = []
-    for kind, parent, key, (x, y, angle, mirrored), scale, importance, example in plain["elements"]:
+    for kind, parent, key, (x, y, angle, mirrored), scale, importance, example, *more in plain["elements"]:
         label, mesh, ring, surface = kinds[kind]
         pose = Pose((x, y), angle, mirrored)
-        found.append(Element(label, mesh, parent, pose, ring, node, key, surface, scale, importance, example))
+        (u, v), novelty = more or PLAIN
+        found.append(
+            Element(label, mesh, parent, pose, ring, node, key, surface, scale, importance, example, (u, v), novelty)
+        )
     return tuple(found)

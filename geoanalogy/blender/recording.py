@@ -384,7 +384,7 @@ def _record_steps(
         write_operation(known, node)
         write_placed(known, placed, around.plane)
         tree.nodes.active = known
-    write_node(around, known, after[0].elements)
+    write_node(known, [(around, after[0].elements)])
     mark_stale(tree, known)
     return known
 

@@ -1,5 +1,7 @@
 """Showing what the stored proposals of operations let pass, without computing anything again."""
 
+from collections.abc import Iterable, Sequence
+
 import bpy
 
 from ..errors import InputError
@@ -12,7 +14,16 @@ from .ground import Ground, read_grounds
 from .instances import write_results
 from .planes import Plane
 from .proposals import read_proposals
-from .tree_store import engine_node, engine_tree, operation_nodes, ordered_nodes, placed_by, plane_of, tree_of
+from .tree_store import (
+    engine_node,
+    engine_tree,
+    operation_nodes,
+    ordered_nodes,
+    placed_by,
+    plane_of,
+    tree_of,
+    works_everywhere,
+)
 
 
 def ground_for(grounds: list[Ground], plane: Plane) -> Ground:
@@ -111,7 +122,7 @@ def decided(node: Node, proposed: tuple[Element, ...], layout: Layout) -> Layout
     return node.operation.decide(known, layout, node.id)[0]
 
 
-def stored_layout(scene: bpy.types.Scene, node: bpy.types.Node) -> tuple[Ground, Layout]:
+def stored_layout(scene: bpy.types.Scene, node: bpy.types.Node) -> list[tuple[Ground, Layout]]:
     """What comes in to a node, by the stored proposals.
 
     Parameters
@@ -122,9 +133,8 @@ def stored_layout(scene: bpy.types.Scene, node: bpy.types.Node) -> tuple[Ground,
 
     Returns
     -------
-    ground : Ground
-        On the node's plane.
-    layout : Layout
+    list of (Ground, Layout)
+        On the node's plane, or on all where it works everywhere.
 
     Raises
     ------
@@ -132,9 +142,44 @@ def stored_layout(scene: bpy.types.Scene, node: bpy.types.Node) -> tuple[Ground,
         Where the ground cannot be read.
     """
     bpy.context.view_layer.update()
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    ground = ground_for(read_grounds(scene, depsgraph, examples_of(node.id_data)), plane_of(node))
-    return ground, stored_layouts(node.id_data, ground)[node.name]
+    grounds = read_grounds(scene, bpy.context.evaluated_depsgraph_get(), examples_of(node.id_data))
+    chosen = grounds if works_everywhere(node) else [ground_for(grounds, plane_of(node))]
+    return [(ground, stored_layouts(node.id_data, ground)[node.name]) for ground in chosen]
+
+
+def layout_at(layouts: list[tuple[Ground, Layout]], e: Element) -> tuple[Ground, Layout] | None:
+    """The ground that an element lies on, and what else is there.
+
+    Parameters
+    ----------
+    layouts : list of (Ground, Layout)
+        By `stored_layout`.
+    e : Element
+
+    Returns
+    -------
+    (Ground, Layout) or None
+        None where its parent is no longer there.
+    """
+    return next(((g, layout) for g, layout in layouts if any(p.id == e.parent for p in layout.scene.polygons)), None)
+
+
+def in_order(node: bpy.types.Node, parts: Sequence[tuple[Plane, Iterable[Element]]]) -> list[tuple[Element, Plane]]:
+    """The elements of a node on all its planes, in the order in which they are shown.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+    parts : sequence of (Plane, iterable of Element)
+        Elements of other nodes are left out.
+
+    Returns
+    -------
+    list of (Element, Plane)
+        As they are on a single plane; the best of all planes first where there are several.
+    """
+    standing = [(e, plane) for plane, elements in parts for e in elements if e.node == node.name]
+    return standing if len(parts) == 1 else sorted(standing, key=lambda one: -one[0].importance)
 
 
 def show(scene: bpy.types.Scene, node: bpy.types.Node, *, unmoved: bool = False) -> int:
@@ -158,10 +203,10 @@ def show(scene: bpy.types.Scene, node: bpy.types.Node, *, unmoved: bool = False)
     InputError
         Where the ground cannot be read.
     """
-    ground, incoming = stored_layout(scene, node)
-    layout = decided(engine_node(node), proposed_by(node), incoming)
-    own = [e for e in layout.elements if e.node == node.name]
-    node[names.COUNT] = write_results(scene, node.name, own, placed_by(node), ground.plane, unmoved=unmoved)
+    engine, proposed = engine_node(node), proposed_by(node)
+    parts = [(g.plane, decided(engine, proposed, incoming).elements) for g, incoming in stored_layout(scene, node)]
+    standing = in_order(node, parts)
+    node[names.COUNT] = write_results(scene, node.name, standing, placed_by(node), unmoved=unmoved)
     return node[names.COUNT]
 
 

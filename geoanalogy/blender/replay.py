@@ -60,32 +60,30 @@ def replay_steps(
     """
     tree = require_operations(context.scene)
     every = read_surroundings(context)
-    total = len(operation_nodes(tree))
-    done = 0
-    elements: list[Element] = []
-    for around in every:
-        if seed is None:
-            seed = around.seed
-        share = len(around.nodes) / total
-        for i, node in enumerate(around.nodes):
-            start, end = (done + 0.5 * share * k / len(around.nodes) for k in (i, i + 1))
-            operation = yield from within(relearned_steps(around, node), start, end)
-            if threshold is not None and hasattr(operation, "threshold"):
-                operation = replace(operation, threshold=threshold)
+    if seed is None:
+        seed = tree.seed
+    nodes = ordered_nodes(tree)
+    for i, node in enumerate(nodes):
+        own = [around for around in every if node in around.nodes]
+        operation = yield from within(relearned_steps(own, node), 0.5 * i / len(nodes), 0.5 * (i + 1) / len(nodes))
+        if threshold is not None and hasattr(operation, "threshold"):
+            operation = replace(operation, threshold=threshold)
+        for around in own:
             around.engine = around.engine.with_node(replace(around.engine.node(node.name), operation=operation))
-        steps = around.engine.steps(around.ground.scene, seed)
-        elements += yield from within(steps, done + 0.5 * share, done + share)
-        done += share
+    elements: list[list[Element]] = []
+    for i, around in enumerate(every):
+        start, end = (0.5 + 0.5 * k / len(every) for k in (i, i + 1))
+        elements.append((yield from within(around.engine.steps(around.ground.scene, seed), start, end)))
     yield 1.0, "placing objects"
     if tree.seed != seed:
         tree.seed = seed
-    rank = [node.name for node in ordered_nodes(tree)]
+    rank = [node.name for node in nodes]
     _clear_removed(context.scene, set(rank))
     count = 0
-    for around in every:
-        for node in around.nodes:
-            write_operation(node, around.engine.node(node.name))
-            count += write_node(around, node, elements)
+    for node in nodes:
+        own = [(around, placed) for around, placed in zip(every, elements, strict=True) if node in around.nodes]
+        write_operation(node, own[0][0].engine.node(node.name))
+        count += write_node(node, own)
     arrange_collections(context.scene, rank)
     context.view_layer.update()
     return Report(sum(not node.mute for node in operation_nodes(tree)), count)

@@ -1,11 +1,13 @@
 """The operations tree of a scene: between Blender's node tree and the engine's `OperationsTree`.
 
 A node carries its operation (`names.OPERATION`: schema, type, settings), the objects it places (`names.EXAMPLES`, with
-how each rests on its pose), the frame of its plane, and what it has proposed. Links are the tree; a node's name is its
+how each rests on its pose, and those that were examples of a placement), the frame of its plane, and what it has
+proposed. Links are the tree; a node's name is its
 id, and its mute switch is the engine's.
 """
 
-from collections.abc import Sequence
+import json
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import bpy
@@ -15,6 +17,7 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ..operations.evaluation import Evaluations
 from ..operations.node import Link, Node
+from ..operations.rectangle_placement import RectanglePlacement
 from ..operations.tree import SCHEMA, VERSION, OperationsTree
 from . import names
 from .plain import from_property, to_property
@@ -38,11 +41,14 @@ class Placed:
         None where it is no longer in the file.
     rest : ndarray of shape (4, 4)
         How it rests on the frame of a pose.
+    target : float or None
+        How much it is wanted as an example of a placement; None where it is none.
     """
 
     mesh: str
     item: bpy.types.Object | None
     rest: Array
+    target: float | None = None
 
 
 def tree_of(scene: bpy.types.Scene) -> bpy.types.NodeTree | None:
@@ -160,6 +166,20 @@ def plane_of(node: bpy.types.Node) -> Plane:
     return Plane(np.eye(4) if stored is None else np.array(stored.to_list()).reshape(4, 4))
 
 
+def works_everywhere(node: bpy.types.Node) -> bool:
+    """Whether a node places on every plane, not on that of its example alone.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+
+    Returns
+    -------
+    bool
+    """
+    return node[names.OPERATION].get("type") == RectanglePlacement.type
+
+
 def engine_node(node: bpy.types.Node) -> Node:
     """A node as the engine's.
 
@@ -180,7 +200,10 @@ def engine_node(node: bpy.types.Node) -> Node:
 
 
 def engine_tree(
-    nodes: Sequence[bpy.types.Node], evaluations: Evaluations | None = None, linked: bool = True
+    nodes: Sequence[bpy.types.Node],
+    evaluations: Evaluations | None = None,
+    linked: bool = True,
+    working: Collection[str] | None = None,
 ) -> OperationsTree:
     """Nodes as the engine's tree.
 
@@ -190,6 +213,8 @@ def engine_tree(
     evaluations : Evaluations, optional
     linked : bool
         Whether links count; they must come from nodes among these.
+    working : collection of str, optional
+        Names of the nodes that have something to do; the others pass on what comes in. None: all that are not muted.
 
     Returns
     -------
@@ -205,10 +230,11 @@ def engine_tree(
         plain = from_property(node[names.OPERATION])
         sources = [{"node": source.name, "output": output} for source, output in sources_of(node)] if linked else []
         entry = {"id": node.name, "type": plain.get("type"), "settings": plain.get("settings", {})}
-        entry |= {"inputs": sources, "muted": node.mute}
+        muted = node.mute or (working is not None and node.name not in working)
+        entry |= {"inputs": sources, "muted": muted}
         holder = {"schema": plain.get("schema"), "nodes": [{**entry, "inputs": []}]}
         (read,) = OperationsTree.from_dict(holder, f"the operation {node.name!r}").nodes
-        made.append(Node(read.id, read.operation, tuple(Link(s["node"], s["output"]) for s in sources), node.mute))
+        made.append(Node(read.id, read.operation, tuple(Link(s["node"], s["output"]) for s in sources), muted))
     return OperationsTree(made, evaluations)
 
 
@@ -226,6 +252,9 @@ def write_operation(node: bpy.types.Node, operation: Node) -> None:
         settings.setdefault("threshold", operation.operation.threshold)
     entry = {"schema": f"{SCHEMA}/{VERSION}", "type": plain["type"], "settings": settings}
     node[names.OPERATION] = {key: to_property(value) for key, value in entry.items()}
+    if isinstance(operation.operation, RectanglePlacement):
+        rule = [[relation.text, relation.weight] for relation in operation.operation.model.rule()]
+        node[names.RULE] = json.dumps(rule, ensure_ascii=False)
     node.mute = operation.muted
 
 
@@ -274,6 +303,7 @@ def write_placed(node: bpy.types.Node, placed: Sequence[Placed], plane: Plane) -
     """
     node[names.EXAMPLES] = {
         str(i): {"mesh": one.mesh, "object": one.item, "rest": one.rest.ravel().tolist()}
+        | ({} if one.target is None else {"target": one.target})
         for i, one in enumerate(placed)
     }
     node[names.FRAME] = plane.frame.ravel().tolist()
@@ -293,7 +323,8 @@ def placed_by(node: bpy.types.Node) -> list[Placed]:
     found = []
     for entry in (node.get(names.EXAMPLES) or {}).values():
         item = entry.get("object") or bpy.data.objects.get(entry["mesh"])
-        found.append(Placed(entry["mesh"], item, np.array(entry["rest"].to_list()).reshape(4, 4)))
+        rest = np.array(entry["rest"].to_list()).reshape(4, 4)
+        found.append(Placed(entry["mesh"], item, rest, entry.get("target")))
     return found
 
 

@@ -74,6 +74,10 @@ def _read_pair(value: Any) -> tuple[float, float]:
     return number(x), number(y)
 
 
+def _read_flags(value: Any) -> tuple[bool, ...]:
+    return tuple(flag(one) for one in value)
+
+
 def _read_fit(value: Any) -> tuple[Fit, Fit]:
     read = one_of("scale", "repeat")
     along, across = value
@@ -98,8 +102,8 @@ class RectanglePlacement(PlacingOne):
         "scale" or "repeat", along a placement's width and along its height (section 5.6).
     gap : (float, float)
         Least distance between repeated objects, along either axis.
-    fill : bool
-        Whether the examples are filled as well: they were drawn as rectangles, and no objects stand there.
+    fill : tuple of bool
+        Per example, whether it is filled as well: it was drawn as a rectangle, and no object stands there. Empty: none.
     threshold : float
         Results below this score are not placed.
     max_per : mapping of str to int
@@ -113,27 +117,37 @@ class RectanglePlacement(PlacingOne):
     size: tuple[float, float] = field(metadata=stored(_read_pair, list))
     fit: tuple[Fit, Fit] = field(default=("scale", "scale"), metadata=stored(_read_fit, list))
     gap: tuple[float, float] = field(default=(0.0, 0.0), metadata=stored(_read_pair, list))
-    fill: bool = field(default=False, metadata=stored(flag))
+    fill: tuple[bool, ...] = field(default=(), metadata=stored(_read_flags, list))
     threshold: float = field(default=0.5, metadata=stored(number, late=True))
     max_per: dict[str, int] = field(default_factory=dict, metadata=stored(counts, dict, late=True))
 
     def __post_init__(self) -> None:
-        if len(self.grounds) != len(self.model.lesson.taught):
+        taught = len(self.model.lesson.taught)
+        if len(self.grounds) != taught or len(self.fill) not in (0, taught):
             raise InputError(
-                f"there are {len(self.grounds)} polygons for {len(self.model.lesson.taught)} examples; give one per "
-                "example"
+                f"there are {len(self.grounds)} polygons and {len(self.fill)} signs to fill for {taught} examples; "
+                "give one of each per example"
             )
         # A size, gap or fit that cannot be is found here, not in the middle of a replay.
         element_array(Rectangle(0.0, 0.0, *self.size), self.size, self.fit, self.gap)
 
     @classmethod
-    def learned(cls, examples: Sequence[Example], options: PlacementOptions | None = None, **settings: Any) -> Self:
+    def learned(
+        cls,
+        examples: Sequence[Example],
+        options: PlacementOptions | None = None,
+        *,
+        fill: Sequence[bool] = (),
+        **settings: Any,
+    ) -> Self:
         """The operation that examples teach.
 
         Parameters
         ----------
         examples : sequence of Example
         options : PlacementOptions, optional
+        fill : sequence of bool
+            Per example; empty: none is filled.
         **settings
             Its other attributes.
 
@@ -147,27 +161,37 @@ class RectanglePlacement(PlacingOne):
             For examples that nothing can be learned from.
         """
         kept = checked(examples)
+        # An example that was given twice counts once.
+        filled = tuple(bool(f) for e, f in zip(examples, fill, strict=bool(fill)) if any(e is k for k in kept))
         drawn = [DrawnIn(str(p.id), tuple(float(b) for b in p.bounds)) for p in parents_of(kept)]  # type: ignore[arg-type]
-        return cls(model=learn_placement(kept, options), grounds=tuple(drawn), **settings)
+        return cls(model=learn_placement(kept, options), grounds=tuple(drawn), fill=filled, **settings)
 
     @property
     def footprint(self) -> NDArray[np.float64]:
         """The library object's rectangle about its centre."""
         return Rectangle(0.0, 0.0, *self.size).ring
 
+    @property
+    def places_in(self) -> frozenset[str]:
+        """The label of the polygons that the example is in."""
+        return frozenset({self.model.label})
+
     def propose(self, layout: Layout, node: str, seed: int) -> Stepper[tuple[Element, ...]]:
         """Place in every parent; then the examples that were drawn here, and no result across one of them."""
         scene = layout.scene
-        found = yield from self.model.placing(scene, LEAST_SCORE)
+        # What equals the arrangement of an example, but is not where that was drawn, gets what was drawn there.
+        elsewhere = not any(ground.is_in(scene) for ground in self.grounds)
+        found = _each_once((yield from self.model.placing(scene, LEAST_SCORE, include_examples=elsewhere)))
+        fill = self.fill or (False,) * len(self.grounds)
         drawn = [
-            (taught.rectangle, taught.target, scene.polygon(ground.id))
-            for taught, ground in zip(self.model.lesson.taught, self.grounds, strict=True)
+            (taught.rectangle, taught.target, scene.polygon(ground.id), filled)
+            for taught, ground, filled in zip(self.model.lesson.taught, self.grounds, fill, strict=True)
             if ground.is_in(scene)
         ]
         shown: list[Element] = []
         results: list[Placement] = [p for p in found if not self._is_drawn(p, drawn)]
-        for rectangle, target, parent in drawn:
-            if target > 0 and self.fill:
+        for rectangle, target, parent, filled in drawn:
+            if target > 0 and filled:
                 results.append(Placement(rectangle, target, parent, 0.0))
             elif target > 0:
                 shown += self._elements([rectangle], Placement(rectangle, target, parent, 0.0), node, example=True)
@@ -175,13 +199,13 @@ class RectanglePlacement(PlacingOne):
             shown += self._elements(element_array(p.rectangle, self.size, self.fit, self.gap), p, node)
         return with_distinct_keys(shown)
 
-    def _is_drawn(self, placement: Placement, drawn: Sequence[tuple[Rectangle, float, Polygon]]) -> bool:
+    def _is_drawn(self, placement: Placement, drawn: Sequence[tuple[Rectangle, float, Polygon, bool]]) -> bool:
         """Whether a result overlaps an example, wanted or not, that was drawn in its parent.
 
         The model sees to that too, but only where the drawing is the same to the last bit.
         """
         shape = shapely.Polygon(placement.rectangle.ring)
-        for rectangle, _, parent in drawn:
+        for rectangle, _, parent, _ in drawn:
             if parent.id == placement.parent.id:
                 shared = shapely.area(shapely.intersection(shape, shapely.Polygon(rectangle.ring)))
                 if shared > self.model.options.allow_overlaps * min(rectangle.area, placement.rectangle.area):
@@ -236,6 +260,15 @@ class RectanglePlacement(PlacingOne):
                     read.add(member.id)
                     waiting.append(member)
         return [p for p in scene.polygons if p.id in read]
+
+
+def _each_once(placements: Sequence[Placement]) -> list[Placement]:
+    """Placements without repetitions: two examples may have been drawn alike in equal arrangements."""
+    once: dict[tuple[object, ...], Placement] = {}
+    for p in placements:
+        r = p.rectangle
+        once.setdefault((p.parent.id, *np.round([r.x, r.y, r.width, r.height], 6).tolist()), p)
+    return list(once.values())
 
 
 def siblings(key: str, keys: Sequence[str]) -> list[str]:

@@ -191,7 +191,7 @@ def test_the_mirrored_twin_of_a_tilted_object_is_its_mirror_image():
     pose = engine("poses.pose").Pose((2.0, 1.0), 0.7, mirrored=True)
     element = engine("operations.element").Element("ramp", "Ramp", "r", pose, None, "ramp", "r@0,0", scale=1.5)
     one = bridge("tree_store").Placed("Ramp", item, rest)
-    assert instances.write_results(bpy.context.scene, "ramp", [element], [one], level) == 1
+    assert instances.write_results(bpy.context.scene, "ramp", [(element, level)], [one]) == 1
     (found,) = results()
     bpy.context.view_layer.update()
     c, s = math.cos(0.7), math.sin(0.7)

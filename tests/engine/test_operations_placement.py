@@ -92,7 +92,7 @@ def test_at_most_so_many_placements_per_parent_the_examples_and_all_of_an_array_
 
 
 def test_drawn_examples_are_filled_where_no_objects_stand():
-    filled = applied(sills(fill=True, size=(0.3, 0.2), fit=("repeat", "scale")))
+    filled = applied(sills(fill=[True] * 4, size=(0.3, 0.2), fit=("repeat", "scale")))
     assert not any(e.example for e in filled)
     for id in SHOWN:
         inside = [e for e in filled if e.parent == "f" and overlap(rectangle_of(e), below(STREET, id)) > 0]
@@ -100,10 +100,28 @@ def test_drawn_examples_are_filled_where_no_objects_stand():
         assert outline_of(inside).ring == pytest.approx(below(STREET, id).ring)
 
 
+def test_some_examples_may_stand_and_others_be_filled():
+    found = applied(sills(fill=[False, True, False, True]))
+    standing = [e for e in found if e.example]
+    assert [overlap(rectangle_of(e), below(STREET, id)) for e, id in zip(standing, SHOWN[::2], strict=True)] == [
+        pytest.approx(1.0),
+        pytest.approx(1.0),
+    ]
+    assert len(found) == len(applied(sills()))
+
+
+def test_an_example_given_twice_counts_once():
+    twice = [ga.Example(STREET, below(STREET, i)) for i in (*SHOWN, SHOWN[0])]
+    operation = RectanglePlacement.learned(
+        twice, mesh="Sill", label="sill", size=SIZE, fill=[True, False, False, True, True]
+    )
+    assert operation.fill == (True, False, False, True)
+
+
 def test_preferences_grade_the_examples_that_are_filled():
     targets = dict(zip(SHOWN, (1.0, 0.6, 1.0, 0.0), strict=True))
     examples = [ga.Example(STREET, below(STREET, i), t) for i, t in targets.items()]
-    operation = RectanglePlacement.learned(examples, mesh="Sill", label="sill", size=SIZE, fill=True)
+    operation = RectanglePlacement.learned(examples, mesh="Sill", label="sill", size=SIZE, fill=[True] * 4)
     found = applied(operation)
     for id, target in targets.items():
         scores = [e.importance for e in found if overlap(rectangle_of(e), below(STREET, id)) > 0.5]
@@ -162,7 +180,7 @@ def test_it_reads_its_parents_and_all_below_them():
 
 
 def test_it_is_stored_with_its_model_and_gives_the_same_again():
-    operation = sills(fit=("repeat", "scale"), gap=(0.1, 0.0), threshold=0.4, fill=True)
+    operation = sills(fit=("repeat", "scale"), gap=(0.1, 0.0), threshold=0.4, fill=[True, False, True, True])
     tree = OperationsTree([Node("sills", operation)])
     again = OperationsTree.from_dict(json.loads(json.dumps(tree.to_dict())))
     assert again.to_dict() == tree.to_dict()
@@ -175,7 +193,8 @@ def test_it_is_stored_with_its_model_and_gives_the_same_again():
         ({"size": (0.0, 0.2)}, "has no area"),
         ({"gap": (-1.0, 0.0)}, "the distance along the width is -1.0; give a number that is not negative"),
         ({"fit": ("repeat", "wrap")}, "the fit along the height is 'wrap'; choose 'scale' or 'repeat'"),
-        ({"grounds": ()}, "0 polygons for 4 examples; give one per example"),
+        ({"fill": (True,)}, "4 polygons and 1 signs to fill for 4 examples"),
+        ({"grounds": ()}, "0 polygons and 0 signs to fill for 4 examples; give one of each per example"),
     ],
 )
 def test_settings_that_cannot_be_are_refused_at_once(settings, message):

@@ -1,0 +1,139 @@
+"""Draw rectangles on faces with the mouse, as examples."""
+
+import bpy
+from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty, StringProperty
+from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
+
+from ..geoanalogy.blender.overlay import Overlay
+from ..geoanalogy.blender.rectangle_drawing import Sketch, add_rectangles, grounds_to_draw_on
+from ..geoanalogy.errors import InputError
+from .edit import Edit, needs_object_mode
+
+#: Events that turn and move the view.
+VIEW_EVENTS = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE"}
+
+
+class GEOANALOGY_PG_corners(bpy.types.PropertyGroup):
+    """A rectangle by two opposite corners."""
+
+    start: FloatVectorProperty(name="Start", subtype="TRANSLATION")
+    end: FloatVectorProperty(name="End", subtype="TRANSLATION")
+    target: FloatProperty(name="Preference", min=0.0, max=1.0, default=1.0, subtype="FACTOR")
+
+
+class GEOANALOGY_OT_draw_rectangles(Edit, bpy.types.Operator):
+    """Drag rectangles across labelled faces: examples of where something belongs, or of where it does not"""
+
+    bl_idname = "geoanalogy.draw_rectangles"
+    bl_label = "Draw Rectangles"
+
+    rectangles: CollectionProperty(name="Rectangles", type=GEOANALOGY_PG_corners)
+    label: StringProperty(name="Label", description="What they are; empty: the label of the panel")
+
+    @classmethod
+    def poll(cls, context):
+        return needs_object_mode(cls, context)
+
+    def edit(self, context):
+        """Put the rectangles there."""
+        corners = [(tuple(one.start), tuple(one.end), round(one.target, 6)) for one in self.rectangles]
+        label = self.label or context.scene.geoanalogy.rectangle_label
+        return f"{len(add_rectangles(context, corners, label))} examples"
+
+    def invoke(self, context, event):
+        if context.area is None or context.area.type != "VIEW_3D":
+            self.report({"ERROR"}, "rectangles are drawn in a 3D view; move the mouse over one")
+            return {"CANCELLED"}
+        try:
+            self._sketch = Sketch(grounds_to_draw_on(context))
+        except InputError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        self.rectangles.clear()
+        self._area = context.area
+        self._region = next(region for region in context.area.regions if region.type == "WINDOW")
+        self._overlay = Overlay(self._sketch)
+        self._tell(context)
+        context.window.cursor_modal_set("CROSSHAIR")
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        self._area.tag_redraw()
+        pressed = event.value == "PRESS"
+        if event.type == "ESC" and pressed:
+            self._end(context)
+            self.report({"INFO"}, "Cancelled; nothing has changed")
+            return {"CANCELLED"}
+        if event.type in {"RET", "NUMPAD_ENTER", "SPACE", "RIGHTMOUSE"} and pressed:
+            self._end(context)
+            for start, end, target in self._sketch.done:
+                one = self.rectangles.add()
+                one.start, one.end, one.target = start, end, target
+            return self.execute(context)
+        if event.type in {"BACK_SPACE", "DEL"} and pressed:
+            self._sketch.take_back()
+        elif event.type == "N" and pressed:
+            self._sketch.target = 1.0 - self._sketch.target
+        elif event.type == "MOUSEMOVE" and self._sketch.dragging:
+            self._sketch.move(*self._sight(event))
+        elif event.type == "LEFTMOUSE" and pressed:
+            if not self._is_inside(event):
+                return {"PASS_THROUGH"}
+            if not self._sketch.press(*self._sight(event)):
+                self.report({"WARNING"}, "There is no labelled face here; label the face in step 1")
+        elif event.type == "LEFTMOUSE" and event.value == "RELEASE" and self._sketch.dragging:
+            self._sketch.move(*self._sight(event))
+            self._sketch.release()
+        elif event.type in VIEW_EVENTS or event.type.startswith("NUMPAD_") or not self._is_inside(event):
+            return {"PASS_THROUGH"}
+        self._tell(context)
+        return {"RUNNING_MODAL"}
+
+    def _is_inside(self, event):
+        x, y = event.mouse_x - self._region.x, event.mouse_y - self._region.y
+        over = any(
+            r.x <= event.mouse_x < r.x + r.width and r.y <= event.mouse_y < r.y + r.height
+            for r in self._area.regions
+            if r != self._region and r.width > 1 and r.height > 1
+        )
+        return 0 <= x < self._region.width and 0 <= y < self._region.height and not over
+
+    def _sight(self, event):
+        """The line of sight under the mouse."""
+        at = event.mouse_x - self._region.x, event.mouse_y - self._region.y
+        view = self._area.spaces.active.region_3d
+        return region_2d_to_origin_3d(self._region, view, at), region_2d_to_vector_3d(self._region, view, at)
+
+    def _tell(self, context):
+        current = self._sketch.current()
+        size = f"{current[1].width:.3g} × {current[1].height:.3g}" if current else f"{len(self._sketch.done)} drawn"
+        kind = "wanted" if self._sketch.target else "not wanted"
+        context.workspace.status_text_set(
+            f"{size}, {kind} — drag across a face; N: wanted or not, Backspace: take back, Enter: done, Esc: cancel"
+        )
+
+    def _end(self, context):
+        self._overlay.remove()
+        context.window.cursor_modal_restore()
+        context.workspace.status_text_set(None)
+        self._area.tag_redraw()
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "label")
+        for one in self.rectangles:
+            layout.prop(one, "target")
+
+
+def register():
+    """Register the operator and what it keeps of a rectangle."""
+    bpy.utils.register_class(GEOANALOGY_PG_corners)
+    bpy.utils.register_class(GEOANALOGY_OT_draw_rectangles)
+
+
+def unregister():
+    """Unregister them."""
+    bpy.utils.unregister_class(GEOANALOGY_OT_draw_rectangles)
+    bpy.utils.unregister_class(GEOANALOGY_PG_corners)

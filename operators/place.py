@@ -1,0 +1,82 @@
+"""Learn from the selected examples, and fill every place like them."""
+
+import bpy
+from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
+
+from ..geoanalogy.blender import names
+from ..geoanalogy.blender.placement_recording import THRESHOLD, placement_steps
+from ..geoanalogy.placements.options import PlacementOptions
+from .edit import LongEdit, needs_object_mode
+
+FITS = [
+    ("scale", "Stretch", "One object, stretched to fill the place"),
+    ("repeat", "Repeat", "As many objects of their own size as fit"),
+]
+
+
+class GEOANALOGY_OT_place(LongEdit, bpy.types.Operator):
+    """Learn what the selected examples have in common, and put the object wherever that holds"""
+
+    bl_idname = "geoanalogy.place"
+    bl_label = "Learn and Place"
+
+    threshold: FloatProperty(
+        name="Threshold", description="Least score of a result", min=0.0, max=1.0, default=THRESHOLD
+    )
+    along: EnumProperty(name="Along", description="Along the width of a place", items=FITS)
+    across: EnumProperty(name="Across", description="Along the height of a place", items=FITS)
+    gap: FloatVectorProperty(
+        name="Distance",
+        description="Least distance between repeated objects, along and across",
+        size=2,
+        min=0.0,
+        subtype="XYZ_LENGTH",
+    )
+    most: IntProperty(name="At Most per Face", description="The examples counted; 0 is any number", min=0)
+    tau: FloatProperty(
+        name="Tolerance",
+        description="Below 1 for places that are exactly like the examples, above for looser ones",
+        min=0.05,
+        max=20.0,
+        default=PlacementOptions().tau,
+    )
+    name: StringProperty(name="Name", description="Of the operation; empty: the label of what is placed")
+
+    @classmethod
+    def poll(cls, context):
+        return needs_object_mode(cls, context)
+
+    def steps(self, context):
+        """Learn, place and record."""
+        element = context.scene.geoanalogy.element
+        chosen = sorted(context.selected_objects, key=lambda item: item.name)
+        # What is to be placed may stand aside, and be selected all the same.
+        examples = [item for item in chosen if item != element] or chosen
+        node = yield from placement_steps(
+            context,
+            examples,
+            element,
+            PlacementOptions(tau=self.tau),
+            fit=(self.along, self.across),
+            gap=tuple(self.gap),
+            threshold=round(self.threshold, 6),
+            max_per={"": self.most} if self.most else None,
+            name=self.name.strip() or None,
+        )
+        return f"{node[names.COUNT]} objects placed"
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        for name in ("threshold", "along", "across", "gap", "most", "tau", "name"):
+            layout.prop(self, name)
+
+
+def register():
+    """Register the operator."""
+    bpy.utils.register_class(GEOANALOGY_OT_place)
+
+
+def unregister():
+    """Unregister it."""
+    bpy.utils.unregister_class(GEOANALOGY_OT_place)
