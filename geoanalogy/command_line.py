@@ -35,6 +35,7 @@ class ExitCode(enum.IntEnum):
 
 # What to do about a module that is missing.
 REMEDIES = {
+    "manifold3d": "enable the GeoAnalogy extension, which brings it, or install it (pip install manifold3d)",
     "bpy": "install the bpy module (pip install 'geoanalogy[bpy]') or run batch.py inside Blender",
     "numpy": "install it (pip install numpy)",
     "scipy": "enable the GeoAnalogy extension, which brings it, or install it (pip install scipy)",

@@ -157,3 +157,29 @@ JUTTING_SHARE, JUTTING_MEAN = 0.7, 0.9
 #: Directions in which the outermost points stand for all in the smallest circle round a drawing: half a degree
 #: apart, which is wrong by 1 - cos(0.25 degrees) = 1e-5 of it.
 HULL_DIRECTIONS = 720
+
+# Solids (section 5.6)
+
+#: Distance, in extents of an outline, within which two vertices of a moving front are the same: what is left of
+#: 1e-16 after tens of events at sharp corners.
+SAME_VERTEX = 1e-8
+
+#: Grid, in scene units, that the vertices of solids are rounded to when they are combined: a micrometre per metre, far
+#: above what turning to another plane and back leaves, and a power of two, so that rounding is exact.
+COORDINATE_GRID = 2.0**-20
+
+#: Difference of the components of unit vectors below which the axes of two frames are parallel.
+PARALLEL_AXES = 1e-9
+
+#: Decimals of a unit normal and of the distance from the origin, in scene units, in which faces in one plane agree.
+COPLANAR = 5
+
+#: Turn, in radians, below which an outline runs straight on, so that its edges extrude to one planar face.
+STRAIGHT_RUN = 1e-4
+
+#: Area, in squared scene units, of the smallest part of a face that is a surface; less is left of coplanar cuts.
+SMALLEST_FACE = 1e-6
+
+#: Distance, in scene units, between the coordinates that the outlines of surfaces are rounded to: equal surfaces have
+#: identical outlines.
+SURFACE_GRID = 1e-6

@@ -2,7 +2,7 @@
 
     python scripts/build_extension.py                           a zip for each platform, for release
     python scripts/build_extension.py --platform linux-x64 --python 3.11
-    python scripts/build_extension.py --without-wheels          where scipy and shapely are at hand already
+    python scripts/build_extension.py --without-wheels          where the libraries are at hand already
 
 The builder is that of the Blender given by --blender or BLENDER, else that of the bpy module beside this Python.
 """

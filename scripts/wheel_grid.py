@@ -9,8 +9,8 @@ MANIFEST = ROOT / "blender_manifest.toml"
 FOLDER = ROOT / "wheels"
 
 # scipy 1.16 asks for numpy 1.25.2 to 2.5, shapely 2.1 for 1.21 and later: both run on the numpy 1.26 of Blender 4.5
-# and 5.0 and on the numpy 2 of 5.1 and later.
-VERSIONS = {"scipy": "1.16.3", "shapely": "2.1.2"}
+# and 5.0 and on the numpy 2 of 5.1 and later; so does manifold3d, which only exchanges arrays with it.
+VERSIONS = {"manifold3d": "3.5.4", "scipy": "1.16.3", "shapely": "2.1.2"}
 
 # Blender 4.5 and 5.0 run Python 3.11, Blender 5.1 and 5.2 run 3.13; Linux distributions build 5.2 with 3.14, and
 # Blender refuses an extension whose wheels do not name its Python.

@@ -1,16 +1,21 @@
 """Elements: what an operations tree places (section 5.6)."""
 
-from dataclasses import dataclass
+from copy import copy
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..geometry.extrusion import triangulated
+from ..geometry.frame import SPACE, Frame
+from ..geometry.mesh import Mesh
 from ..geometry.polygon import Polygon
+from ..geometry.solid import Solid
+from ..geometry.surface import GROUND
 from ..poses.pose import Pose
-
-#: The surface that the polygons of a scene lie on.
-GROUND = "ground"
+from .changes import Change
 
 Ring = tuple[tuple[float, float], ...]
 
@@ -23,8 +28,9 @@ class Element:
     ----------
     label : str
         What kind of thing it is; later operations see it under this label.
-    mesh : str
-        Name of the library object that stands there.
+    mesh : str or Mesh
+        Name of the library object that stands there, "" for none; in what `OperationsTree.apply` returns, the mesh in
+        space of what was extruded.
     parent : str
         Id of the polygon it stands in.
     pose : Pose
@@ -47,10 +53,24 @@ class Element:
         Its extents along the pose's direction and across it, in proportion to the library object's at that scale.
     novelty : float
         How far its surroundings are from anything that was taught, 0 to 1.
+    owner : str
+        Id of the element whose solid the surface is a face of; "" on the ground.
+    frame : Frame
+        Where its surface lies in space.
+    base : Solid or None
+        What it was extruded to, in the frame `place`.
+    changes : tuple of Change
+        What has been merged into it and subtracted from it, in order.
+    solid : Solid or None
+        The base after these changes.
+    absorbed_by : str
+        Id of the element that its own solid has become a part of, or been cut out of; "" for none.
+    twin : Element or None
+        The same on an unnamed surface: equal surfaces share it.
     """
 
     label: str
-    mesh: str
+    mesh: str | Mesh
     parent: str
     pose: Pose
     footprint: Ring | None
@@ -62,6 +82,13 @@ class Element:
     example: bool = False
     stretch: tuple[float, float] = (1.0, 1.0)
     novelty: float = 0.0
+    owner: str = ""
+    frame: Frame = SPACE
+    base: Solid | None = None
+    changes: tuple[Change, ...] = ()
+    solid: Solid | None = None
+    absorbed_by: str = ""
+    twin: "Element | None" = field(default=None, compare=False, repr=False)
 
     @property
     def id(self) -> str:
@@ -90,6 +117,47 @@ class Element:
         """
         ring = self.ring
         return None if ring is None else Polygon(ring, label=self.label, id=self.id)
+
+    @cached_property
+    def place(self) -> Frame:
+        """The pose as a frame of space: origin at its position, x along its direction, normal out of the surface."""
+        return self.frame.moved(*self.pose.position, self.pose.angle)
+
+    def changed(self, **values: Any) -> "Element":
+        """The element with other values, which keep its outline.
+
+        Parameters
+        ----------
+        **values
+            Of its attributes.
+
+        Returns
+        -------
+        Element
+        """
+        made = replace(self, **values)
+        polygon = self.__dict__.get("polygon")
+        if polygon is not None and made.id != self.id:
+            polygon = copy(polygon)
+            polygon.__dict__.pop("content", None)  # which has the id
+            polygon.id = made.id
+        if polygon is not None:
+            made.__dict__["polygon"] = polygon
+        return made
+
+    @property
+    def geometry(self) -> Mesh | None:
+        """What it is made of, in space: its solid, or its flat outline; None for a point and for what is absorbed."""
+        if self.absorbed_by:
+            return None
+        if self.solid is not None:
+            return self.solid.mesh.placed(self.place)
+        if self.polygon is None:
+            return None
+        flat = self.polygon.points
+        faces = triangulated([flat])
+        index = np.zeros(len(faces), dtype=np.intp)
+        return Mesh(self.frame.to_space(flat), faces, flat[faces], (self.label,), index)
 
 
 def plain_ring(footprint: NDArray[np.float64] | None) -> Ring | None:

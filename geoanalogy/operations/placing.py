@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
+from ..geometry.surface import GROUND, Surface
 from ..poses.pose import Pose
 from ..poses.propagate import PoseModel
 from ..poses.results import PropagatedPose
@@ -17,7 +18,7 @@ from ..tolerances import SAME_POLYGON
 from .decisions import Decisions
 from .element import Element, plain_ring
 from .keys import distinct, key_of
-from .layout import Layout
+from .layout import Layout, OnSurface
 from .operation import Operation
 from .settings import stored, text
 
@@ -70,13 +71,69 @@ class Placing(Operation):
         """
         return None
 
+    @property
+    def places_in(self) -> frozenset[str] | None:
+        """Labels of the polygons that it may place something in; None: any."""
+        return None
+
     def decide(self, proposed: Sequence[Element], layout: Layout, node: str) -> tuple[Layout, ...]:
         """The layout with the examples, and with the results that pass, corrected by the decisions by hand."""
+        by_surface: dict[str, list[Element]] = {GROUND: []}
+        for e in proposed:
+            by_surface.setdefault(e.surface, []).append(e)
+        surfaces = {s.id: s for s in layout.surfaces(self.places_in)} if self.decisions != NONE else {}
+        for pin in self.decisions.pinned.values():
+            if pin.parent in surfaces:
+                by_surface.setdefault(pin.parent, [])
+        found: list[Element] = []
+        for id, elements in by_surface.items():
+            there = layout
+            if id != GROUND:
+                surface = surfaces.get(id) or layout.surface_under(elements[0])
+                there = OnSurface(layout.ground, surface=surface, standing=tuple(layout.on.get(id, ())))
+            chosen = self._decided(elements, there, node)
+            found += [e if e.surface == id else standing_on(surfaces[id], e) for e in chosen]
+        return (layout.with_elements(found),)
+
+    def _decided(self, proposed: Sequence[Element], layout: Layout, node: str) -> list[Element]:
+        """What of the elements on one surface stays."""
         examples = [e for e in proposed if e.example]
         results = [e for e in proposed if not e.example]
         chosen = self.chosen(results, examples, layout)
-        decided = self.decisions.apply(results, chosen, self.template(node), layout.scene)
-        return (layout.with_elements([*examples, *decided]),)
+        if self.decisions != NONE:
+            chosen = self.decisions.apply(results, chosen, self.template(node), layout.scene)
+        return [*examples, *chosen]
+
+
+#: What has been decided where nothing has.
+NONE = Decisions()
+
+
+def standing_on(surface: Surface, element: Element) -> Element:
+    """An element of an unnamed surface on a surface of the scene.
+
+    Parameters
+    ----------
+    surface : Surface
+    element : Element
+        Its ids have `UNNAMED` where they will have the surface's.
+
+    Returns
+    -------
+    Element
+    """
+    return element.changed(
+        parent=element.parent.replace(UNNAMED, surface.id),
+        key=element.key.replace(UNNAMED, surface.id),
+        surface=surface.id,
+        owner=surface.parent,
+        frame=surface.frame,
+        twin=element,
+    )
+
+
+#: The id of a surface in what equal surfaces share; no id that a user gives has this character.
+UNNAMED = "\0"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -45,6 +45,11 @@ class PosePlacement(PlacingOne):
         """The example's footprint."""
         return self.model.footprint
 
+    @property
+    def places_in(self) -> frozenset[str]:
+        """The label of the polygons that the example is in."""
+        return frozenset({self.model.parent.label})
+
     def propose(self, layout: Layout, node: str, seed: int) -> Stepper[tuple[Element, ...]]:
         """Propagate the example."""
         results = yield from self.model.steps(layout.scene)

@@ -37,6 +37,11 @@ class ScatterPlacement(PlacingOne):
         """The example's footprint."""
         return self.model.model.footprint
 
+    @property
+    def places_in(self) -> frozenset[str]:
+        """The label of the polygons that the example is in."""
+        return frozenset({self.model.model.parent.label})
+
     def propose(self, layout: Layout, node: str, seed: int) -> Stepper[tuple[Element, ...]]:
         """Draw poses."""
         drawn = yield from self.model.steps(layout.scene, seed ^ self.seed)

@@ -1,12 +1,15 @@
 """THE table of operations: their names in files and menus, and their classes. Another kind becomes a row here."""
 
 from .array_placement import ArrayPlacement
+from .boolean import Boolean
 from .choice_placement import ChoicePlacement
+from .extrusion import Extrusion
 from .group_placement import GroupPlacement
 from .operation import Operation
 from .pose_placement import PosePlacement
 from .rectangle_placement import RectanglePlacement
 from .scatter_placement import ScatterPlacement
+from .selection import Selection
 
 #: Every kind of operation by its name.
 OPERATIONS: dict[str, type[Operation]] = {
@@ -18,5 +21,8 @@ OPERATIONS: dict[str, type[Operation]] = {
         ScatterPlacement,
         ChoicePlacement,
         RectanglePlacement,
+        Extrusion,
+        Boolean,
+        Selection,
     )
 }

@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..geometry.mesh import Mesh
 from ..geometry.scene import Scene
 from ..progress import Progress, Stepper, run, within
-from .element import Element
+from .applied import Applied
 from .evaluation import Evaluations
 from .layout import Layout, merge
-from .node import Node
+from .node import Link, Node
 
 SCHEMA = "geoanalogy.operations"
 VERSION = 1
@@ -130,7 +131,13 @@ class OperationsTree:
         used = {link.node for node in self.nodes for link in node.inputs}
         return tuple(node.id for node in self.nodes if node.id not in used)
 
-    def apply(self, scene: Scene, seed: int = 0, progress: Progress | None = None) -> list[Element]:
+    def apply(
+        self,
+        scene: Scene,
+        seed: int = 0,
+        progress: Progress | None = None,
+        library: Mapping[str, Mesh] | None = None,
+    ) -> Applied:
         """All elements that the tree places on a scene.
 
         Parameters
@@ -140,11 +147,14 @@ class OperationsTree:
             Of all chance in the tree.
         progress : callable (fraction, text) -> bool, optional
             Returning False cancels.
+        library : mapping of str to Mesh, optional
+            The library objects by name; None: elements keep their names.
 
         Returns
         -------
-        list of Element
-            Node by node in the tree's order; within a node the examples, then the results, best first.
+        Applied
+            The list of elements, node by node in the tree's order; within a node the examples, then the results, best
+            first. With the problems that single parcels made.
 
         Raises
         ------
@@ -153,23 +163,25 @@ class OperationsTree:
         Cancelled
             When `progress` returned False.
         """
-        return run(self.steps(scene, seed), progress)
+        return run(self.steps(scene, seed, library), progress)
 
-    def steps(self, scene: Scene, seed: int = 0) -> Stepper[list[Element]]:
+    def steps(self, scene: Scene, seed: int = 0, library: Mapping[str, Mesh] | None = None) -> Stepper[Applied]:
         """The stepper behind `apply`.
 
         Parameters
         ----------
         scene : Scene
         seed : int
+        library : mapping of str to Mesh, optional
 
         Returns
         -------
         generator of (float, str)
-            Returns the list of elements.
+            Returns what was applied.
         """
         layout = yield from self.layout_steps(scene, seed=seed)
-        return list(layout.elements)
+        scene.memory.settle()
+        return Applied(layout, self.evaluations.hit_rate, library)
 
     def layout(self, scene: Scene, node: str | None = None, seed: int = 0, progress: Progress | None = None) -> Layout:
         """What flows out of a node: the layout that the next operation after it sees.
@@ -222,7 +234,8 @@ class OperationsTree:
             outputs[current.id] = yield from within(step, i / len(needed), (i + 1) / len(needed))
         if node is not None:
             return outputs[node][0]
-        last = [layout for leaf in self.leaves for layout in outputs[leaf]]
+        used = {link for n in self.nodes for link in n.inputs}
+        last = [outputs[n.id][k] for n in self.nodes for k in range(n.operation.outputs) if Link(n.id, k) not in used]
         return merge(scene, last or [Layout(scene)], rank)
 
     def _upstream(self, ids: Iterable[str]) -> set[str]:

@@ -82,7 +82,7 @@ def engine_twins() -> list[str]:
 
 @pytest.fixture(scope="session")
 def extension_zip(tmp_path_factory):
-    """The zip without wheels: this Python has scipy and shapely already."""
+    """The zip without wheels: this Python has the libraries already."""
     return build_extension(tmp_path_factory.mktemp("extension"), "--without-wheels")
 
 

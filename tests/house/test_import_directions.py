@@ -16,7 +16,7 @@ BLENDER = {
     *("bpy", "bmesh", "mathutils", "gpu", "gpu_extras", "bpy_extras", "bl_math", "bl_ui", "blf", "aud", "idprop"),
     *("addon_utils", "nodeitems_utils"),
 }
-NUMERICAL = {"numpy", "scipy", "shapely"}
+NUMERICAL = {"numpy", "scipy", "shapely", "manifold3d"}
 OURS = {"geoanalogy", "operators", "panels", "bl_ext"}
 
 BASE = {"errors", "tolerances", "progress"}
@@ -106,7 +106,7 @@ def test_the_engine_imports_downwards_only(path):
 
 
 @pytest.mark.parametrize("path", engine_modules(), ids=name_of)
-def test_the_engine_needs_numpy_scipy_and_shapely_only(path):
+def test_the_engine_needs_numerical_packages_only(path):
     assert foreign(path, NUMERICAL) == []
 
 

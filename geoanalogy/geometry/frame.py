@@ -1,0 +1,174 @@
+"""Frames of planes in space: where a flat arrangement lies (section 5.6, surfaces)."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A plane with an origin and two axes; a frame of space, since the normal is the third.
+
+    Attributes
+    ----------
+    origin : (float, float, float)
+        Scene units.
+    x, y : (float, float, float)
+        Unit vectors at right angles. The plane is seen from the side that x cross y points to.
+    """
+
+    origin: Triple = (0.0, 0.0, 0.0)
+    x: Triple = (1.0, 0.0, 0.0)
+    y: Triple = (0.0, 1.0, 0.0)
+
+    @classmethod
+    def of(cls, origin: ArrayLike, x: ArrayLike, y: ArrayLike) -> "Frame":
+        """A frame from arrays.
+
+        Parameters
+        ----------
+        origin, x, y : array_like of shape (3,)
+
+        Returns
+        -------
+        Frame
+        """
+        return cls(_triple(origin), _triple(x), _triple(y))
+
+    @cached_property
+    def axes(self) -> Array:
+        """x, y and the normal as rows, shape (3, 3)."""
+        return np.array([self.x, self.y, _cross(self.x, self.y)])
+
+    @property
+    def normal(self) -> Array:
+        """Unit vector out of the plane, shape (3,)."""
+        return self.axes[2]
+
+    @cached_property
+    def matrix(self) -> Array:
+        """The matrix that takes the frame's coordinates to space, shape (4, 4)."""
+        matrix = np.eye(4)
+        matrix[:3, :3] = self.axes.T
+        matrix[:3, 3] = self.origin
+        return matrix
+
+    def to_space(self, points: ArrayLike) -> Array:
+        """Points of the frame in the coordinates that it is given in.
+
+        Parameters
+        ----------
+        points : array_like of shape (n, 2) or (n, 3)
+            The third coordinate is the height above the plane; 0 where there is none.
+
+        Returns
+        -------
+        ndarray of shape (n, 3)
+        """
+        given = np.asarray(points, float)
+        return given @ self.axes[: given.shape[1]] + self.origin
+
+    def to_plane(self, points: ArrayLike) -> Array:
+        """Points of space in the frame's coordinates: the inverse of `to_space`.
+
+        Parameters
+        ----------
+        points : array_like of shape (n, 3)
+
+        Returns
+        -------
+        ndarray of shape (n, 3)
+            The third coordinate is the height above the plane.
+        """
+        return (np.asarray(points, float) - self.origin) @ self.axes.T
+
+    def inside(self, outer: "Frame") -> "Frame":
+        """A frame that is given in the coordinates of another one, in those that the other is given in.
+
+        Parameters
+        ----------
+        outer : Frame
+
+        Returns
+        -------
+        Frame
+        """
+        x, y = np.array([self.x, self.y]) @ outer.axes
+        return Frame.of(outer.to_space([self.origin])[0], x, y)
+
+    def seen_from(self, outer: "Frame") -> "Frame":
+        """The frame in the coordinates of another one: the inverse of `inside`.
+
+        Parameters
+        ----------
+        outer : Frame
+
+        Returns
+        -------
+        Frame
+        """
+        x, y = np.array([self.x, self.y]) @ outer.axes.T
+        return Frame.of(outer.to_plane([self.origin])[0], x, y)
+
+    def moved(self, x: float, y: float, angle: float = 0.0) -> "Frame":
+        """The frame with its origin elsewhere in its plane, turned.
+
+        Parameters
+        ----------
+        x, y : float
+            The origin's coordinates in this frame.
+        angle : float
+            Radians, counter-clockwise from this frame's x axis.
+
+        Returns
+        -------
+        Frame
+        """
+        if x == 0.0 and y == 0.0 and angle == 0.0:
+            return self
+        c, s = np.cos(angle), np.sin(angle)
+        return Frame((float(x), float(y), 0.0), (float(c), float(s), 0.0), (float(-s), float(c), 0.0)).inside(self)
+
+    def upright(self, up: ArrayLike) -> "Frame":
+        """The frame turned about its normal so that y points as far up as it can; itself where the plane is level.
+
+        Parameters
+        ----------
+        up : array_like of shape (3,)
+            Unit vector.
+
+        Returns
+        -------
+        Frame
+        """
+        wanted = np.asarray(up, float)
+        y = wanted - (self.normal @ wanted) * self.normal
+        length = float(np.sqrt(y @ y))
+        if length < 1e-6:
+            return self
+        y /= length
+        return Frame(self.origin, _cross(_triple(y), _triple(self.normal)), _triple(y))
+
+    @property
+    def flipped(self) -> "Frame":
+        """The plane seen from behind: x the other way."""
+        x, y, z = self.x
+        return Frame(self.origin, (-x, -y, -z), self.y)
+
+
+def _cross(a: Triple, b: Triple) -> Triple:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def _triple(values: ArrayLike) -> Triple:
+    x, y, z = values.tolist() if isinstance(values, np.ndarray) else map(float, values)  # type: ignore[arg-type, union-attr]
+    return x, y, z
+
+
+#: The frame of the ground, and of space.
+SPACE = Frame()
