@@ -1,9 +1,10 @@
-"""Run the benchmarks and write their tables to docs/benchmarks.md.
+"""Run the benchmarks and write their tables into docs/benchmarks.md.
 
-    python -m benchmarks [--full] [NAME …]
+    python -m benchmarks [--full] [--print] [NAME …]
 
-Without names, all of them. A benchmark is a module of this folder with a function `tables`, which yields what
-`benchmarks.measuring.Table` describes. Those that need data which is not there say so in one sentence.
+Without names, all of them. A benchmark is a module of this folder with a function `tables(full)`, which yields what
+`benchmarks.measuring.Table` describes. Its tables replace what stands between ``<!-- NAME -->`` and ``<!-- /NAME -->``
+in the report; the prose around is left alone. One that needs data which is not there says so in one sentence.
 """
 
 from __future__ import annotations
@@ -11,17 +12,13 @@ from __future__ import annotations
 import argparse
 import importlib
 import re
+import time
 from pathlib import Path
 
 from .measuring import machine
 
 FOLDER = Path(__file__).resolve().parent
 REPORT = FOLDER.parent / "docs" / "benchmarks.md"
-HEAD = """# Benchmarks
-
-Written by `make bench`. Every figure was taken in the same run as what it is compared with.
-
-"""
 
 
 def names() -> list[str]:
@@ -29,33 +26,37 @@ def names() -> list[str]:
     return sorted(p.stem for p in FOLDER.glob("*.py") if re.search(r"^def tables\(", p.read_text("utf-8"), re.M))
 
 
+def with_tables(report: str, name: str, text: str) -> str:
+    """A report with the tables of a benchmark in their place; at its end, where it has none for them."""
+    block = f"<!-- {name} -->\n\n{text.strip()}\n\n<!-- /{name} -->"
+    pattern = re.compile(rf"<!-- {re.escape(name)} -->.*?<!-- /{re.escape(name)} -->", re.S)
+    if pattern.search(report):
+        return pattern.sub(lambda _: block, report, count=1)
+    return f"{report.rstrip()}\n\n## {name}\n\n{block}\n".lstrip()
+
+
 def main() -> None:
+    """Command line."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(names())}")
     parser.add_argument("--full", action="store_true", help="the long ones too")
+    parser.add_argument("--print", action="store_true", help="leave the report as it is")
     arguments = parser.parse_args()
     unknown = set(arguments.names) - set(names())
     if unknown:
         parser.error(f"no benchmark is called {', '.join(sorted(unknown))}; choose from {', '.join(names())}")
-    sections = sections_of(REPORT)
     for name in arguments.names or names():
-        module = importlib.import_module(f"benchmarks.{name}")
-        text = f"## {name}\n\n{(module.__doc__ or '').splitlines()[0]}\n\n{machine()}\n"
-        print(text, flush=True)
-        for table in module.tables(full=arguments.full):
-            print(table.markdown(), flush=True)
-            text += f"\n{table.markdown()}"
-        sections[name] = text
-    REPORT.write_text(HEAD + "\n".join(sections[name] for name in sorted(sections)), encoding="utf-8")
-
-
-def sections_of(report: Path) -> dict[str, str]:
-    """The sections of the last report by the benchmarks' names; those that are not run again stay."""
-    if not report.is_file():
-        return {}
-    parts = re.split(r"^## (\w+)\n", report.read_text("utf-8"), flags=re.M)[1:]
-    known = names()
-    return {n: f"## {n}\n{body.rstrip()}\n" for n, body in zip(parts[::2], parts[1::2], strict=True) if n in known}
+        start = time.perf_counter()
+        written = [f"{machine()}\n"]
+        print(f"# {name}\n\n{written[0]}", flush=True)
+        for table in importlib.import_module(f"benchmarks.{name}").tables(full=arguments.full):
+            written.append(table.markdown())
+            print(written[-1], flush=True)
+        print(f"{name}: {time.perf_counter() - start:.0f} s", flush=True)
+        if not arguments.print:
+            # After each: what has been measured is kept where a later one is stopped.
+            report = REPORT.read_text("utf-8") if REPORT.is_file() else ""
+            REPORT.write_text(with_tables(report, name, "\n".join(written)), encoding="utf-8")
 
 
 if __name__ == "__main__":

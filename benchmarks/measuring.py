@@ -15,6 +15,9 @@ import numpy as np
 #: Runs of which the median is reported.
 RUNS = 5
 
+#: Seconds after which a median is taken of the runs there are: all benchmarks together take minutes.
+ENOUGH = 4.0
+
 
 @dataclass(frozen=True)
 class Table:
@@ -44,9 +47,13 @@ class Table:
 
 
 def seconds(work: Callable[[], object], runs: int = RUNS, prepare: Callable[[], object] | None = None) -> float:
-    """Median time of some runs, in seconds; `prepare` runs before each, unmeasured."""
-    taken = []
-    for _ in range(runs):
+    """Median time of some runs, in seconds; `prepare` runs before each, unmeasured.
+
+    No further run starts once they have taken `ENOUGH` together, with what is not measured.
+    """
+    taken: list[float] = []
+    begin = time.perf_counter()
+    while len(taken) < runs and not (taken and time.perf_counter() - begin > ENOUGH):
         if prepare is not None:
             prepare()
         start = time.perf_counter()
@@ -65,9 +72,11 @@ def peak_megabytes(work: Callable[[], object]) -> float:
         tracemalloc.stop()
 
 
-def milliseconds(value: float) -> str:
-    """Seconds as milliseconds with three figures."""
-    return f"{1e3 * value:.3g} ms" if value < 10 else f"{value:.0f} s"
+def duration(value: float) -> str:
+    """Seconds, readable: milliseconds below one second."""
+    if value < 1:
+        return f"{1e3 * value:.0f} ms" if value >= 0.01 else f"{1e3 * value:.2g} ms"
+    return f"{value:.1f} s" if value < 10 else f"{value:.0f} s"
 
 
 def times(slow: float, fast: float) -> str:
@@ -80,5 +89,5 @@ def machine() -> str:
     """One sentence about where the figures were taken."""
     return (
         f"Python {platform.python_version()}, numpy {np.__version__}, {os.cpu_count()} cores of {platform.machine()}; "
-        f"medians of {RUNS} runs unless a table says otherwise."
+        f"medians of {RUNS} runs, of fewer where they take more than {ENOUGH:g} s together."
     )
