@@ -4,6 +4,7 @@ Three ways to accumulate, by the option of that name. All three only *find* plac
 `importance`, evaluated exactly.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,19 +12,23 @@ from numpy.typing import NDArray
 
 from ..relations.elements import ElementType
 from ..relations.table import Kind, Positional
-from .arrangement import FAR, Fields
-from .importance import WIDE_SHARE, WIDE_WIDTH, Importance, wrap
+from .fields import FAR, Fields
+from .importance import Importance
+from .kernels import WIDE_SHARE, WIDE_WIDTH, level_set, wrap
 from .matching import Answers
 
 Array = NDArray[np.float64]
 Array32 = NDArray[np.float32]
 Indices = NDArray[np.intp]
 
-#: Distance between neighbouring candidate places of a footprint, and half-width of the level sets they are found with,
-#: in half-widths of the exact ones: coarse enough to be cheap, so wide that every exact maximum has a candidate on its
-#: slope.
-FOOTPRINT_STEP = 1.5
+#: Least distance between neighbouring candidate places of a footprint (the next whole step of the grid), and
+#: half-width of the level sets they are found with, in half-widths of the exact ones: coarse enough to be cheap, so
+#: wide that every exact maximum has a candidate on its slope.
+FOOTPRINT_STEP = 1.2
 FOOTPRINT_WIDTH = 3.0
+
+#: How deep inside an obstacle a sample at a candidate place may be, in the same unit: its maximum is up to a step away.
+FOOTPRINT_SLACK = 1.5
 
 #: Pairs of features that can contribute less than this share of the strongest one are left out where places are only
 #: looked for.
@@ -96,7 +101,7 @@ def _of_footprint(
 ) -> Candidates:
     """Accumulate for all samples of the footprint, moved rigidly, in the few directions that the features suggest."""
     grid = fields.grid
-    stride = max(1, round(FOOTPRINT_STEP * importance.width / grid.spacing))
+    stride = max(1, math.ceil(FOOTPRINT_STEP * importance.width / grid.spacing))
     importance = importance.of_strongest(STRONG)
     rows, columns = np.arange(0, grid.rows, stride), np.arange(0, grid.columns, stride)
     position, angle, strength = [], [], []
@@ -139,24 +144,55 @@ def _accumulate(
     """The importance of grid cells for one direction, with wide level sets; shape (cells,)."""
     total = np.zeros(len(cells), dtype=np.float32)
     width = np.float32(FOOTPRINT_WIDTH * importance.width)
+    # Where each sample of the footprint is.
+    places = cells + offsets[:, None]
     parts = ((e, part) for e, a in importance.answers.items() for part in a.blocks(MOST_VALUES // len(cells) + 1))
     for element, a in parts:
         entries = np.zeros((len(a.target), len(cells)), dtype=np.float32)
         for k, relation in enumerate(a.relations):
-            chosen = np.arange(len(a.target))
-            where = cells + offsets[a.sample][:, None]
-            if element is not ElementType.CORNER:
-                turned = fields.direction(relation)[a.target[:, None], where]
-                miss = wrap(np.float32(direction) - turned - a.turn[k][:, None].astype(np.float32))
-                aligned = np.maximum(0, 1 - np.abs(miss) / np.float32(importance.query.options.direction_width))
-                chosen = np.flatnonzero(aligned.any(axis=1))
-                where, aligned = where[chosen], aligned[chosen]
-            away = _away(relation, a, k, importance, fields, chosen, where)
-            weight = np.maximum(0, 1 - away / width) * a.weight[k, chosen, None].astype(np.float32)
-            entries[chosen] += weight if element is ElementType.CORNER else weight * aligned
-        pairs = np.add.reduceat(entries, a.pair_start, axis=0) * a.accuracy[:, None].astype(np.float32)
+            chosen, aligned = _aligned(importance, fields, element, relation, a, k, places, direction)
+            away = _away(relation, a, k, importance, fields, chosen, places[a.sample[chosen]])
+            away *= -1 / width
+            away += 1
+            weight = np.maximum(away, 0, out=away)
+            weight *= a.weight[k, chosen, None].astype(np.float32)
+            if aligned is not None:
+                weight *= aligned
+            entries[chosen] += weight
+        pairs = np.add.reduceat(entries, a.pair_start, axis=0)
+        pairs *= a.accuracy[:, None].astype(np.float32)
         total += np.maximum.reduceat(pairs, a.feature_start, axis=0).sum(axis=0)
     return total
+
+
+def _aligned(
+    importance: Importance,
+    fields: Fields,
+    element: ElementType,
+    relation: Positional,
+    a: Answers,
+    k: int,
+    places: Indices,
+    direction: float,
+) -> tuple[Indices, Array32 | None]:
+    """The entries whose directional level sets have a direction somewhere, and their kernels there.
+
+    The places of a footprint's samples tell directions from corners better.
+    """
+    every = np.arange(len(a.target))
+    if element is ElementType.CORNER:
+        return every, None
+    tolerance = importance.query.options.direction_width
+    heading = importance.target.elements.heading(element)
+    if heading is not None:  # the same everywhere
+        kernel = 1 - np.abs(wrap(direction - heading[a.target] - a.turn[k])) / tolerance
+        chosen = np.flatnonzero(kernel > 0)
+        return chosen, kernel[chosen, None].astype(np.float32)
+    miss = fields.direction(relation, a.target, places[a.sample])
+    miss = wrap(np.float32(direction) - miss - a.turn[k][:, None].astype(np.float32))
+    aligned = np.maximum(0, 1 - np.abs(miss) / np.float32(tolerance))
+    chosen = np.flatnonzero(aligned.any(axis=1))
+    return chosen, aligned[chosen]
 
 
 def _away(
@@ -165,14 +201,14 @@ def _away(
     """Distance in the plane from the level sets of some entries at grid points; shape (chosen, points)."""
     target = a.target[chosen]
     value = a.value[k, chosen] * (importance.scale if relation.kind is Kind.LENGTH else 1.0)
-    miss = fields.value(relation)[target[:, None], where] - value[:, None].astype(np.float32)
+    miss = fields.value(relation, target, where) - value[:, None].astype(np.float32)
     if relation.period is not None:
         period = relation.period(importance.target.elements)[target][:, None].astype(np.float32)
         cyclic = np.isfinite(period[:, 0])
         miss[cyclic] = wrap(miss[cyclic], period[cyclic])
     miss = np.abs(miss)
     if relation.kind is not Kind.LENGTH:
-        miss *= np.minimum(fields.reach(relation)[target[:, None], where], np.float32(FAR / 100))
+        miss *= np.minimum(fields.reach(relation, target, where), np.float32(FAR / 100))
     return miss
 
 
@@ -236,13 +272,12 @@ def _level_sets(importance: Importance, fields: Fields, free: Indices):  # type:
         for start, end in zip(a.feature_start, np.append(a.feature_start[1:], len(a.accuracy)), strict=True):
             entry = a.pair_start[start:end]  # one sample: an entry is a pair
             for k, relation in enumerate(a.relations):
-                away = _away(relation, a, k, importance, fields, entry, np.broadcast_to(free, (len(entry), len(free))))
+                away = _away(relation, a, k, importance, fields, entry, free)
                 away /= width
-                kernel = (1 - WIDE_SHARE) * np.maximum(0, 1 - away)
-                kernel += WIDE_SHARE * np.maximum(0, 1 - away / WIDE_WIDTH)
+                kernel = level_set(away)
                 accuracy = a.accuracy[start:end].astype(np.float32)
                 kernel *= accuracy[:, None]
-                towards = fields.direction(relation)[a.target[entry][:, None], free]
+                towards = fields.direction(relation, a.target[entry], free)
                 towards = towards + a.turn[k, entry, None].astype(np.float32)
                 yield float(a.weight[k, entry[0]]), accuracy, kernel, towards
 

@@ -1,6 +1,6 @@
 """Propagating a pose: the steps of section 4.2 (figure 4.4) put together."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -13,8 +13,9 @@ from ..geometry.scene import Scene
 from ..progress import Progress, Stepper, run
 from ..tolerances import CONTAINED_SHARE
 from .arrangement import Arrangement, arrangement_of
-from .candidates import FOOTPRINT_STEP, find_candidates
-from .importance import Importance, wrap
+from .candidates import FOOTPRINT_SLACK, Candidates, find_candidates
+from .importance import Importance
+from .kernels import wrap
 from .matching import Sense, senses
 from .options import PoseOptions
 from .pose import Pose, footprint_ring
@@ -24,6 +25,10 @@ from .results import PoseResults, PropagatedPose, RelationShare
 from .validation import JUTTING_SHARE, Validation
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+#: Differences in importance below this are none: about what the refinement leaves.
+EQUAL = 5e-4
 
 #: Rooms within this share of the example's size are of its size: in proportion to the room (option `scale`) is then
 #: the same as fixed.
@@ -33,11 +38,14 @@ SAME_SIZE = 0.01
 #: preferred.
 SCALED_FACTOR = 0.95
 
-#: Parents between two looks at how much is remembered: a plan of thousands of rooms must not be held at once.
-SETTLED_EVERY = 16
+#: Parents whose candidates are refined together: enough that little is spent on each, and so few that a plan of
+#: thousands of rooms is not held at once.
+TOGETHER = 16
 
-#: Grid spacing at least, in half-widths of level sets: finer grids find nothing that the refinement would not.
+#: Grid spacing at least, in half-widths of level sets: finer grids find nothing that the refinement would not. The
+#: level sets that places of footprints are found with are wider.
 FINEST = 0.5
+FINEST_OF_FOOTPRINTS = 0.75
 
 
 class PoseModel:
@@ -104,14 +112,21 @@ class PoseModel:
         targets = self.targets(scene)
         spacing = self._spacing(targets)
         found: list[PropagatedPose] = []
+        tried: list[tuple[Importance, Candidates]] = []
         for i, polygon in enumerate(targets):
             yield i / len(targets), f"placing in {polygon.label or polygon.id}"
-            found += self._place_in(arrangement_of(scene, polygon), spacing)
-            if i % SETTLED_EVERY == 0:
+            tried += self._candidates_in(arrangement_of(scene, polygon), spacing)
+            if (i + 1) % TOGETHER == 0 or i + 1 == len(targets):
+                found += self._answers(tried)
+                tried.clear()
                 scene.memory.settle()
-        scene.memory.settle()
-        found.sort(key=lambda p: self._rank(p.importance, p.mirrored != self.pose.mirrored, p.pose.angle, p.parent))
-        return PoseResults(found, self.footprint)
+        order = self._ranked(
+            np.array([p.importance for p in found]),
+            [p.mirrored != self.pose.mirrored for p in found],
+            np.array([p.pose.angle for p in found]),
+            [p.parent for p in found],
+        )
+        return PoseResults([found[i] for i in order], self.footprint)
 
     def targets(self, scene: Scene) -> list[Polygon]:
         """The polygons of a scene that can hold answers.
@@ -131,9 +146,11 @@ class PoseModel:
     def _spacing(self, targets: list[Polygon]) -> float:
         """Distance between grid points in a parent of the example's size."""
         area = sum(float(np.prod(p.bounds[2:] - p.bounds[:2])) for p in targets)
-        spacing = max(float(np.sqrt(area / self.options.cells)), FINEST * self.query.width)
-        # In steps, so that examples of similar rooms share the fields.
-        return float(2 ** (np.floor(2 * np.log2(spacing)) / 2)) if spacing > 0 else 1.0
+        spacing = float(np.sqrt(area / self.options.cells)) or 1.0
+        finest = FINEST_OF_FOOTPRINTS if self.query.rigid else FINEST
+        coarser = max(0.0, np.log2(finest * self.query.width / spacing))
+        # In steps, so that examples of parents of different sizes share the fields.
+        return float(spacing * 2 ** (np.ceil(2 * coarser) / 2))
 
     def scales(self, target: Arrangement) -> list[float]:
         """The sizes, in proportion to the example's, at which an arrangement is tried.
@@ -169,35 +186,55 @@ class PoseModel:
                 if self.query.total and importance.bound >= self.options.threshold:
                     yield importance
 
-    def _place_in(self, target: Arrangement, spacing: float) -> list[PropagatedPose]:
-        found: list[tuple[float, Array, float, Importance]] = []
+    def _candidates_in(self, target: Arrangement, spacing: float) -> Iterator[tuple[Importance, Candidates]]:
+        """Where to look in an arrangement, for every sense and scale."""
         for importance in self.importances(target):
-            slack = FOOTPRINT_STEP * importance.width
+            slack = FOOTPRINT_SLACK * importance.width
             share = 1.0 if self._validation.may_jut_out else 2 * JUTTING_SHARE
             margin = share * float(np.hypot(*importance.samples.T).max()) + spacing
             fields = target.fields(spacing, margin)
             blocked = self._validation.blocked(target, fields, slack)
-            mirrored = importance.mirrored
             # The example would outshine the other places of its room.
-            taken = self._is_example(target, fields.grid.points, mirrored)
+            taken = self._is_example(target, fields.grid.points, importance.mirrored)
             candidates = find_candidates(importance, fields, blocked, taken)
-            if not len(candidates.angle):
-                continue
-            factor = 1.0 if importance.scale == 1.0 else SCALED_FACTOR
-            best = max((f[0] for f in found), default=0.0)
-            position, angle, value = refine(importance, candidates.position, candidates.angle, best / factor)
-            kept = (value * factor >= self.options.threshold) & ~self._is_example(target, position, mirrored)
-            position, angle, value = position[kept], angle[kept], value[kept]
-            accepted = self._validation.accepts(target, position, angle, mirrored, importance.scale)
-            for p, a, v in zip(position[accepted], angle[accepted], value[accepted], strict=True):
-                found.append((float(v) * factor, p, float(a), importance))
-        found.sort(key=lambda f: self._rank(f[0], f[3].sense.mirrored, f[2], target.parent))
-        return self._apart(target, found)
+            if len(candidates.angle):
+                yield importance, candidates
 
-    def _rank(self, importance: float, mirrored: bool, angle: float, parent: Polygon) -> tuple[float, bool, float]:
-        """Sort best first; of equals, the object as it is before its mirror image, the least turned one first."""
-        turn = angle - self.pose.angle - parent.main_orientation + self.parent.main_orientation
-        return -round(importance, 4), mirrored, round(abs(float(wrap(np.array(turn)))), 3)
+    def _answers(self, tried: Sequence[tuple[Importance, Candidates]]) -> list[PropagatedPose]:
+        """What the candidates of some arrangements lead to."""
+        importances = [importance for importance, _ in tried]
+        factor = np.array([1.0 if i.scale == 1.0 else SCALED_FACTOR for i in importances])
+        refined = refine(importances, [candidates for _, candidates in tried], factor.tolist())
+        found: dict[Arrangement, list[tuple[float, Array, float, Importance]]] = {}
+        for k, importance in enumerate(importances):
+            target, turned = importance.target, importance.mirrored
+            poses = refined.of(refined.which == k)
+            poses = poses.of(poses.value * factor[k] >= self.options.threshold)
+            poses = poses.of(~self._is_example(target, poses.position, turned))
+            poses = poses.of(self._validation.accepts(target, poses.position, poses.angle, turned, importance.scale))
+            rows = zip(poses.value * factor[k], poses.position, poses.angle, strict=True)
+            found.setdefault(target, []).extend((float(v), p, float(a), importance) for v, p, a in rows)
+        results = []
+        for target, places in found.items():
+            value, _, angle, of = zip(*places, strict=True) if places else ((), (), (), ())
+            mirrored = [i.sense.mirrored for i in of]
+            order = self._ranked(np.array(value), mirrored, np.array(angle), [target.parent] * len(of))
+            results += self._apart(target, [places[i] for i in order])
+        return results
+
+    def _ranked(self, importance: Array, mirrored: Sequence[bool], angle: Array, parents: Sequence[Polygon]) -> Indices:
+        """Best first; of equals, the object as it is before its mirror image, the least turned one first."""
+        frame = np.array([p.main_orientation for p in parents]) - self.parent.main_orientation
+        turn = np.abs(wrap(angle - self.pose.angle - frame)).round(3)
+        order = np.argsort(-importance, kind="stable")
+        # Equals are those that the best of them is hardly better than.
+        group = np.zeros(len(order), dtype=np.intp)
+        first = 0
+        for i in range(1, len(order)):
+            if importance[order[first]] - importance[order[i]] > EQUAL:
+                first = i
+            group[order[i]] = first
+        return np.lexsort((turn, np.array(mirrored), group))
 
     def _is_example(self, target: Arrangement, position: Array, mirrored: bool) -> NDArray[np.bool_]:
         """Whether poses are the example itself, or its mirror image in the same place."""

@@ -1,12 +1,18 @@
 """Candidates moved onto the exact maximum: a result must not move when the grid does (section 4.5)."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.elements import ElementType
-from .importance import WIDE_SHARE, WIDE_WIDTH, Importance, Misses
+from .batch import Batch, Misses, Rows
+from .candidates import Candidates
+from .importance import Importance
+from .kernels import WIDE_SHARE, WIDE_WIDTH
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
 
 #: Iterations of reweighted least squares; fewer where no step is larger than this share of a half-width any more.
 SETTLED = 1e-4
@@ -17,7 +23,7 @@ PER_PARENT = 12
 
 #: Candidates kept after an iteration, by its number: at the most so many, within this share of the best importance.
 #: Falling behind early says little, falling behind late is final.
-KEPT = {0: (24, 0.4), 1: (20, 0.4), 2: (16, 0.4), 3: (12, 0.4)}
+KEPT = {0: (24, 0.25), 1: (20, 0.35), 2: (16, 0.4), 3: (12, 0.4)}
 
 #: Pairs of features that can contribute less than this share of the strongest one do not pull at poses.
 STRONG = 0.05
@@ -30,151 +36,249 @@ SAME_MAXIMUM = 0.1
 MET = 0.6
 SHARPER = 0.3
 
+#: Steps to less than this share of the best importance are taken back.
+FALL = 0.7
+
 #: Leading candidates around which is looked for better places, and how far, in half-widths. Where samples disagree the
 #: importance has plateaus with narrow peaks; least squares settle anywhere on them. And the iterations that follow.
-PROBED = 6
-PROBES = (0.1, 0.2, 0.4, 0.8, 1.4, 2.0)
+PROBED = 4
+PROBES = (0.15, 0.4, 1.0, 2.0)
 AGAIN = range(2, ITERATIONS + 1)
 
 
-def refine(importance: Importance, position: Array, angle: Array, floor: float = 0.0) -> tuple[Array, Array, Array]:
-    """Move poses to the nearby maximum of the importance.
+@dataclass(frozen=True)
+class Refined:
+    """Poses at maxima of the importance.
+
+    Attributes
+    ----------
+    which : ndarray of shape (k,), int
+        The number of each pose's importance, ascending.
+    position : ndarray of shape (k, 2)
+    angle, value : ndarray of shape (k,)
+        Direction in radians, and importance.
+    """
+
+    which: Indices
+    position: Array
+    angle: Array
+    value: Array
+
+    def of(self, chosen: Indices | NDArray[np.bool_]) -> "Refined":
+        """Some of the poses.
+
+        Parameters
+        ----------
+        chosen : ndarray of int or bool
+
+        Returns
+        -------
+        Refined
+        """
+        return Refined(self.which[chosen], self.position[chosen], self.angle[chosen], self.value[chosen])
+
+
+def refine(
+    importances: Sequence[Importance], candidates: Sequence[Candidates], factor: Sequence[float] | None = None
+) -> Refined:
+    """Move poses to the nearby maximum of the importance, in many arrangements at once.
 
     The kernel falls off linearly, so a maximum is where the weighted sum of distances from level sets is least: solved
     by least squares, each miss weighted by its inverse, for position and direction together. The best pose met on the
-    way is returned; candidates that fall far behind are dropped.
+    way is returned; candidates that fall far behind the best one of their arrangement are dropped.
 
     Parameters
     ----------
-    importance : Importance
-    position : ndarray of shape (m, 2)
-    angle : ndarray of shape (m,)
-    floor : float
-        The best importance known elsewhere in the arrangement: what falls behind it is dropped too.
+    importances : sequence of Importance
+        Of one query.
+    candidates : sequence of Candidates
+        Of each importance.
+    factor : sequence of float, optional
+        What the importances are multiplied by before those of an arrangement are compared.
 
     Returns
     -------
-    position, angle, importance : ndarray
-        Of shapes (k, 2), (k,) and (k,), k <= m.
+    Refined
     """
-    unit = np.array([importance.width, importance.width, importance.query.options.direction_width])
-    strong = importance.of_strongest(STRONG)
-    position, angle, value = _descend(strong, position, angle, unit, range(ITERATIONS + 1), floor)
-    if not len(position):
-        return position, angle, value
-    position, angle = _probe(strong, position, angle, value, unit)
-    return position, angle, importance(position, angle)
+    count = [len(c.angle) for c in candidates]
+    if not sum(count):
+        return Refined(np.zeros(0, dtype=np.intp), np.zeros((0, 2)), np.zeros(0), np.zeros(0))
+    which = np.repeat(np.arange(len(importances)), count)
+    start = Refined(
+        which,
+        np.concatenate([c.position for c in candidates]),
+        np.concatenate([c.angle for c in candidates]),
+        np.full(len(which), -1.0),
+    )
+    strong = Batch(importances, STRONG)
+    rivals = _Rivals(importances, strong.unit, np.ones(len(importances)) if factor is None else np.array(factor))
+    found = _probe(strong, _descend(strong, start, range(ITERATIONS + 1), rivals))
+    value = Batch(importances).importance(found.which, found.position, found.angle)
+    return Refined(found.which, found.position, found.angle, value)
 
 
-def _descend(
-    strong: Importance, position: Array, angle: Array, unit: Array, iterations: range, floor: float | None = None
-) -> tuple[Array, Array, Array]:
-    """The best poses met in iterations of reweighted least squares, and their importance for the strong pairs.
+class _Rivals:
+    """Which candidates stand against one another: those of one arrangement, in every sense and at every scale."""
 
-    Without a floor all are kept.
+    def __init__(self, importances: Sequence[Importance], unit: Array, factor: Array) -> None:
+        targets = list(dict.fromkeys(i.target for i in importances))
+        self._arrangement = np.array([targets.index(i.target) for i in importances])
+        self._factor = factor
+        self._unit = unit
+        self._candidates = max(PER_PARENT, importances[0].query.options.candidates)
+
+    def leading(self, poses: Refined, most: int, share: float) -> Indices:
+        """The best candidates of each importance, one per maximum; in the order of the poses."""
+        value = poses.value * self._factor[poses.which]
+        top = np.zeros(self._arrangement.max() + 1)
+        np.maximum.at(top, self._arrangement[poses.which], value)
+        good = np.flatnonzero(value >= share * top[self._arrangement[poses.which]])
+        table = in_turn(poses.which[good], poses.value[good])
+        unit = self._unit[poses.which[good]]
+        facing = np.column_stack([np.cos(poses.angle[good]), np.sin(poses.angle[good])]) / unit[:, 2:]
+        place = np.column_stack([poses.position[good] / unit[:, :2], facing])
+        # One that has a better one beside it is the same.
+        place = np.where(table[..., None] >= 0, place[table], np.nan)
+        near = np.abs(place[:, :, None] - place[:, None]).max(axis=3) < SAME_MAXIMUM
+        alone = ~np.tril(near, -1).any(axis=2) & (table >= 0)
+        kept = alone & (np.cumsum(alone, axis=1) <= most * self._candidates // PER_PARENT)
+        return np.sort(good[table[kept]])
+
+
+def in_turn(which: Indices, value: Array) -> Indices:
+    """Numbers of poses by importance, the best first.
+
+    Parameters
+    ----------
+    which : ndarray of shape (m,), int
+        Ascending.
+    value : ndarray of shape (m,)
+
+    Returns
+    -------
+    ndarray of shape (importances that have poses, most poses of one), int
+        Padded with -1.
     """
-    best_position, best_angle, best = position, angle, np.full(len(position), -1.0)
+    order = np.lexsort((-value, which))
+    changes = np.append(True, np.diff(which) != 0)
+    row = np.cumsum(changes) - 1
+    start = np.flatnonzero(changes)
+    place = np.arange(len(which)) - start[row]
+    table = np.full((len(start), int(place.max(initial=-1)) + 1), -1, dtype=np.intp)
+    table[row, place] = order
+    return table
+
+
+def _descend(batch: Batch, poses: Refined, iterations: range, rivals: _Rivals | None = None) -> Refined:
+    """The best poses met in iterations of reweighted least squares, and their importance.
+
+    Without rivals all are kept.
+    """
+    best, best_step = poses, np.zeros((len(poses.which), 3))
+    position, angle = poses.position, poses.angle
+    rows = batch.rows(poses.which)
     for iteration in iterations:
-        if not len(position):
-            break
-        misses = strong.misses(position, angle, uphill=True)
-        value, step = _step(strong, misses, angle, unit, MET * SHARPER**iteration)
-        better = value > best
-        best_position = np.where(better[:, None], position, best_position)
-        best_angle = np.where(better, angle, best_angle)
-        best = np.maximum(best, value)
+        value, step = _step(batch, rows, best.which, position, angle, MET * SHARPER**iteration)
+        better = value > best.value
+        # A step too far is taken again from the best pose, half as long.
+        fell = (value < FALL * best.value)[:, None]
+        best = Refined(
+            best.which,
+            np.where(better[:, None], position, best.position),
+            np.where(better, angle, best.angle),
+            np.maximum(best.value, value),
+        )
         # Far steps lead to other maxima, which have candidates of their own.
-        size = np.abs(step / unit).max(axis=1, keepdims=True)
+        size = np.abs(step / batch.unit[best.which]).max(axis=1, keepdims=True)
         step = step * np.minimum(1.0, 2.0 * 0.8**iteration / np.maximum(size, 1e-12))
         if iteration > max(KEPT) and size.max() < SETTLED:
             break
-        position, angle = position + step[:, :2], angle + step[:, 2]
-        if iteration in KEPT and floor is not None:
-            most, share = KEPT[iteration]
-            most = most * max(PER_PARENT, strong.query.options.candidates) // PER_PARENT
-            kept = _leading(best_position, best_angle, best, unit, floor, most, share)
-            position, angle = position[kept], angle[kept]
-            best_position, best_angle, best = best_position[kept], best_angle[kept], best[kept]
-    return best_position, best_angle, best
+        best_step = np.where(better[:, None], step, np.where(fell, best_step / 2, best_step))
+        step = np.where(fell, best_step, step)
+        position = np.where(fell, best.position, position) + step[:, :2]
+        angle = np.where(fell[:, 0], best.angle, angle) + step[:, 2]
+        if iteration in KEPT and rivals is not None:
+            kept = rivals.leading(best, *KEPT[iteration])
+            if len(kept) < len(angle):
+                position, angle, best, best_step = position[kept], angle[kept], best.of(kept), best_step[kept]
+                rows = batch.rows(best.which)
+    return best
 
 
-def _probe(strong: Importance, position: Array, angle: Array, value: Array, unit: Array) -> tuple[Array, Array]:
+def _probe(batch: Batch, poses: Refined) -> Refined:
     """Look around the leading poses for better ones, and go on from those."""
-    lead = np.argsort(-value, kind="stable")[:PROBED]
-    c, s = np.cos(angle[lead]), np.sin(angle[lead])
-    ways = np.stack([np.stack([c, s], axis=1), np.stack([-s, c], axis=1)])
-    steps = unit[0] * np.concatenate([sign * far * ways for far in PROBES for sign in (1, -1)])
-    around = position[lead] + steps
-    found = strong(around.reshape(-1, 2), np.tile(angle[lead], len(steps))).reshape(len(steps), len(lead))
-    best = np.argmax(found, axis=0)
-    gains = np.flatnonzero(found.max(axis=0) > value[lead])
-    if len(gains):
-        moved = lead[gains]
-        new = _descend(strong, around[best[gains], gains], angle[moved], unit, AGAIN)
-        better = new[2] > value[moved]
-        position[moved[better]], angle[moved[better]] = new[0][better], new[1][better]
-    return position, angle
-
-
-def _leading(
-    position: Array, angle: Array, value: Array, unit: Array, floor: float, most: int, share: float
-) -> NDArray[np.intp]:
-    """The best candidates, one per maximum."""
-    order = np.argsort(-value, kind="stable")
-    order = order[value[order] >= share * max(floor, value[order[0]])]
-    pose = np.column_stack([position, np.cos(angle) * unit[0] / unit[2], np.sin(angle) * unit[0] / unit[2]])[order]
-    near = np.abs(pose[:, None] - pose).max(axis=2) < SAME_MAXIMUM * unit[0]
-    # One that has a better one beside it is the same.
-    alone = ~np.tril(near, -1).any(axis=1)
-    return order[alone][:most]
+    table = in_turn(poses.which, poses.value)[:, :PROBED]
+    lead = np.sort(table[table >= 0])
+    leading = poses.of(lead)
+    c, s = np.cos(leading.angle), np.sin(leading.angle)
+    width = batch.unit[leading.which, :1]
+    rows = batch.rows(leading.which)
+    best, place = leading.value, leading.position
+    for way in (np.column_stack([c, s]), np.column_stack([-s, c])):
+        for far in PROBES:
+            for sign in (1, -1):
+                around = leading.position + sign * far * width * way
+                value = batch.total(rows, around, leading.angle)
+                better = value > best
+                best = np.where(better, value, best)
+                place = np.where(better[:, None], around, place)
+    gains = np.flatnonzero(best > leading.value)
+    if not len(gains):
+        return poses
+    start = Refined(leading.which[gains], place[gains], leading.angle[gains], np.full(len(gains), -1.0))
+    found = _descend(batch, start, AGAIN)
+    position, angle, value = poses.position.copy(), poses.angle.copy(), poses.value.copy()
+    better = found.value > leading.value[gains]
+    moved = lead[gains[better]]
+    position[moved], angle[moved], value[moved] = found.position[better], found.angle[better], found.value[better]
+    return Refined(poses.which, position, angle, value)
 
 
 def _step(
-    importance: Importance, misses: dict[ElementType, Misses], angle: Array, unit: Array, met: float
+    batch: Batch, rows: Sequence[Rows], which: Indices, position: Array, angle: Array, met: float
 ) -> tuple[Array, Array]:
     """The importance, shape (m,), and one step of reweighted least squares, shape (m, 3)."""
     m = len(angle)
     total = np.zeros(m)
-    normal = np.zeros((m, 3, 3))
-    right = np.zeros((m, 3))
-    # A turn of the pose moves a sample at right angles to its arm.
-    arms = importance.sample_points(np.zeros((m, 2)), angle)
-    for element, missed in misses.items():
-        a = importance.answers[element]
-        kernel = importance.kernel(missed)
-        directional = importance.directional(element, missed)
-        pairs = importance.of_pairs(element, kernel * directional)
-        top = np.maximum.reduceat(pairs, a.feature_start, axis=0)
-        total += top.sum(axis=0)
-        per_feature = np.diff(np.append(a.feature_start, len(a.accuracy)))
-        wins = (pairs == np.repeat(top, per_feature, axis=0)) & (pairs > 0)
-        per_pair = np.diff(np.append(a.pair_start, len(a.target)))
-        strength = np.repeat(wins * a.accuracy[:, None], per_pair, axis=0) * a.weight[:, :, None]
-        far = np.abs(missed.place) / importance.width
-        pull = ((1 - WIDE_SHARE) * (far < 1) + WIDE_SHARE / WIDE_WIDTH * (far < WIDE_WIDTH)) * strength * directional
-        assert missed.uphill is not None
-        c, s = np.cos(missed.uphill), np.sin(missed.uphill)
-        arm = arms[a.sample]
-        around = (arm[..., 0] * s - arm[..., 1] * c) * unit[2] / importance.width
-        slope = np.stack([c, s, around], axis=-1)
-        weight = pull * missed.allowed / np.maximum(far, met)
-        _add(normal, right, missed.place / importance.width, slope, weight)
-        directed = importance.directed(element)
-        if directed.any():
-            turn = missed.turn / unit[2]
+    # The normal equations: the upper triangle of their matrix, row by row, and their right side.
+    sums = np.zeros((9, m))
+    unit = batch.unit[which]
+    for r in rows:
+        misses = r.misses(position, angle, uphill=True)
+        kernel = r.kernel(misses)
+        directional = r.directional(misses)
+        pairs = r.of_pairs(kernel * directional)
+        top = r.best(pairs)
+        total += r.of_poses(top)
+        wins = (pairs == np.repeat(top, r.per_feature)) & (pairs > 0)
+        strength = np.repeat(wins * r.accuracy, r.per_pair) * r.weight
+        sums += _pulls(r, misses, angle, strength * directional, unit[0, 2], met)
+        if r.directed.any():
+            turn = misses.turn / unit[0, 2]
             off = np.abs(turn)
-            weight = (off < 1) * directed[:, None] * strength * kernel / np.maximum(off, met)
+            weight = (off < 1) * r.directed * strength * kernel / np.maximum(off, met)
             # Reference directions are taken as constant: those of straight segments are.
-            normal[:, 2, 2] += weight.sum(axis=(0, 1))
-            right[:, 2] += (weight * turn).sum(axis=(0, 1))
-    normal += np.eye(3) * (1e-9 + 1e-7 * np.trace(normal, axis1=1, axis2=2)[:, None, None])
-    step = -np.linalg.solve(normal, right[..., None])[..., 0] * unit
-    return total / importance.query.total if importance.query.total else total, step
+            sums[5] += r.summed(weight.sum(axis=0))
+            sums[8] += r.summed((weight * turn).sum(axis=0))
+    normal = sums[[0, 1, 2, 1, 3, 4, 2, 4, 5]].T.reshape(m, 3, 3)
+    trace = sums[0] + sums[3] + sums[5]
+    normal = normal + np.eye(3) * (1e-9 + 1e-7 * trace)[:, None, None]
+    step = -np.linalg.solve(normal, sums[6:].T[..., None])[..., 0] * unit
+    return batch.normalised(total), step
 
 
-def _add(normal: Array, right: Array, miss: Array, slope: Array, weight: Array) -> None:
-    """Add weighted misses (relations, entries, m), with their slopes in three unknowns, to the normal equations."""
+def _pulls(r: Rows, misses: Misses, angle: Array, pull: Array, turn_unit: float, met: float) -> Array:
+    """What the misses of a type of element add to the normal equations; shape (9, m)."""
+    miss = misses.place / r.width
+    far = np.abs(miss)
+    weight = ((1 - WIDE_SHARE) * (far < 1) + WIDE_SHARE / WIDE_WIDTH * (far < WIDE_WIDTH)) * pull
+    weight *= misses.allowed / np.maximum(far, met)
     miss = np.where(weight > 0, miss, 0.0)
-    weighted = weight[..., None] * slope
-    right += np.einsum("remi,rem->mi", weighted, miss)
-    normal += np.einsum("remi,remj->mij", weighted, slope)
+    assert misses.uphill is not None
+    x, y = misses.uphill.real, misses.uphill.imag
+    # A turn of the pose moves a sample at right angles to its arm.
+    arm_x, arm_y = r.arms(angle)
+    around = (arm_x * y - arm_y * x) * (turn_unit / r.width)
+    wx, wy, wa = weight * x, weight * y, weight * around
+    terms = (wx * x, wx * y, wx * around, wy * y, wy * around, wa * around, wx * miss, wy * miss, wa * miss)
+    return r.summed(np.stack([t.sum(axis=0) for t in terms]))

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from ..geometry.polygon import Polygon
 from ..tolerances import TOUCHING_SHARE
-from .arrangement import Arrangement, Fields
+from .arrangement import Arrangement
+from .fields import Fields
 from .options import PoseOptions
 from .pose import Pose
 
@@ -96,9 +97,9 @@ class Validation:
         ndarray of shape (points,), bool
         """
         deep = fields.boundary_distance > slack
-        blocked = np.zeros(deep.shape[1], dtype=bool) if self.may_jut_out else ~fields.covered[0] & deep[0]
+        blocked = np.zeros(deep.shape[1], dtype=bool) if self.may_jut_out else ~fields.covered(0) & deep[0]
         for i, _ in self.obstacles(target):
-            blocked |= fields.covered[i] & deep[i]
+            blocked |= fields.covered(i) & deep[i]
         return blocked
 
     def accepts(

@@ -6,7 +6,8 @@ of them and all points in one call.
 
 import enum
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +38,10 @@ class Elements:
         Direction in radians of the x axis in which bounding boxes are taken.
     edge_start, edge_vector : ndarray of shape (e, 2)
         Every boundary edge of every polygon: its first vertex and the way to its second.
+    edge_direction : ndarray of shape (e,), complex
+        The way divided by its length; x is the real part.
+    edge_heading : ndarray of shape (e,)
+        Its angle, radians.
     edge_length, edge_offset : ndarray of shape (e,)
         Length, and arc length from the segment's start.
     edge_ring_offset, edge_ring_length : ndarray of shape (e,)
@@ -50,6 +55,9 @@ class Elements:
     segment_closed : ndarray of shape (s,), bool
         Whether the segment is a whole smooth ring.
     segment_label : tuple of str
+    polygon_centroid : ndarray of shape (p, 2)
+    polygon_orientation : ndarray of shape (p,)
+        Main orientation of each polygon, radians.
     corner_polygon : ndarray of shape (c,), int
     corner_vertex : ndarray of shape (c, 2)
     corner_before : ndarray of shape (c,)
@@ -62,6 +70,8 @@ class Elements:
     frame: float
     edge_start: Array
     edge_vector: Array
+    edge_direction: NDArray[np.complex128]
+    edge_heading: Array
     edge_length: Array
     edge_offset: Array
     edge_ring_offset: Array
@@ -74,6 +84,8 @@ class Elements:
     segment_curvature: Array
     segment_closed: NDArray[np.bool_]
     segment_label: tuple[str, ...]
+    polygon_centroid: Array
+    polygon_orientation: Array
     corner_polygon: Indices
     corner_vertex: Array
     corner_before: Array
@@ -93,6 +105,18 @@ class Elements:
         -------
         Elements
         """
+        if not polygons:
+            return cls._extracted((), frame)
+        parts = []
+        for polygon in polygons:
+            kept = _KEPT.get(polygon)
+            if kept is None:
+                kept = _KEPT[polygon] = cls._extracted((polygon,), 0.0)
+            parts.append(kept)
+        return cls.joined(parts, frame)
+
+    @classmethod
+    def _extracted(cls, polygons: tuple[Polygon, ...], frame: float) -> "Elements":
         starts, vectors, turns, offsets, ring_offsets, ring_lengths = [], [], [], [], [], []
         edge_polygon: list[int] = []
         edge_segment: list[int] = []
@@ -126,12 +150,15 @@ class Elements:
                     opening.append(c.opening)
                     corner_polygon.append(i)
         edge_vector = np.concatenate(vectors) if vectors else np.zeros((0, 2))
+        edge_length = np.hypot(*edge_vector.T)
         return cls(
-            polygons=tuple(polygons),
+            polygons=polygons,
             frame=frame,
             edge_start=np.concatenate(starts) if starts else np.zeros((0, 2)),
             edge_vector=edge_vector,
-            edge_length=np.hypot(*edge_vector.T),
+            edge_direction=(edge_vector[:, 0] + 1j * edge_vector[:, 1]) / edge_length,
+            edge_heading=np.arctan2(edge_vector[:, 1], edge_vector[:, 0]),
+            edge_length=edge_length,
             edge_offset=np.concatenate(offsets) if offsets else np.zeros(0),
             edge_ring_offset=np.concatenate(ring_offsets) if ring_offsets else np.zeros(0),
             edge_ring_length=np.concatenate(ring_lengths) if ring_lengths else np.zeros(0),
@@ -143,10 +170,78 @@ class Elements:
             segment_curvature=np.array(curvatures),
             segment_closed=np.array(closed, dtype=bool),
             segment_label=tuple(labels),
+            polygon_centroid=np.array([p.centroid for p in polygons]).reshape(-1, 2),
+            polygon_orientation=np.array([p.main_orientation for p in polygons]),
             corner_polygon=np.array(corner_polygon, dtype=np.intp),
             corner_vertex=np.array(vertices, dtype=np.float64).reshape(-1, 2),
             corner_before=np.array(before),
             corner_opening=np.array(opening),
+        )
+
+    @classmethod
+    def joined(cls, parts: Sequence["Elements"], frame: float = 0.0) -> "Elements":
+        """The features of several lists of polygons, one after another.
+
+        Parameters
+        ----------
+        parts : sequence of Elements
+            At least one.
+        frame : float
+            Direction in radians of the x axis in which bounding boxes are taken.
+
+        Returns
+        -------
+        Elements
+        """
+        together = {name: np.concatenate([getattr(p, name) for p in parts]) for name in _ARRAYS}
+        polygons = np.cumsum([0, *(len(p.polygons) for p in parts[:-1])])
+        segments = np.cumsum([0, *(len(p.segment_length) for p in parts[:-1])])
+        counted = (("edge_polygon", polygons), ("edge_segment", segments))
+        for name, first in (*counted, ("segment_polygon", polygons), ("corner_polygon", polygons)):
+            together[name] += np.repeat(first, [len(getattr(p, name)) for p in parts])
+        return cls(
+            polygons=tuple(polygon for p in parts for polygon in p.polygons),
+            frame=frame,
+            segment_label=tuple(label for p in parts for label in p.segment_label),
+            **together,
+        )
+
+    def take(self, element: ElementType, rows: Indices) -> "Elements":
+        """Chosen elements of one type, each as a feature of its own, as often as it is chosen.
+
+        Parameters
+        ----------
+        element : ElementType
+        rows : ndarray of shape (n,), int
+
+        Returns
+        -------
+        Elements
+            With `n` elements of the type and none of the others; polygons are left out.
+        """
+        none = np.zeros(0, dtype=np.intp)
+        per_segment = rows if element is ElementType.SEGMENT else none
+        per_corner = rows if element is ElementType.CORNER else none
+        per_polygon = rows if element is ElementType.POLYGON else none
+        edges, owner = none, none
+        if element is not ElementType.CORNER:
+            group = self.edge_segment if element is ElementType.SEGMENT else self.edge_polygon
+            first = np.searchsorted(group, np.arange(self.count(element) + 1))
+            if len(group) == self.count(element):  # an edge each
+                edges, owner = rows, np.arange(len(rows))
+            else:
+                count = np.diff(first)[rows]
+                edges, owner = ranges(first[rows], count), np.repeat(np.arange(len(rows)), count)
+        return replace(
+            self,
+            polygons=(),
+            segment_label=(),
+            edge_segment=owner,
+            edge_polygon=owner,
+            **{name: getattr(self, name)[edges] for name in _OF_EDGES},
+            **{name: getattr(self, name)[per_segment] for name in _OF_SEGMENTS},
+            **{name: getattr(self, name)[per_corner] for name in _OF_CORNERS},
+            **{name: getattr(self, name)[per_polygon] for name in _OF_POLYGONS},
         )
 
     def count(self, element: ElementType) -> int:
@@ -162,6 +257,21 @@ class Elements:
         """
         return len(self.polygon_of(element))
 
+    def heading(self, element: ElementType) -> Array | None:
+        """Direction of every element of a type, where each has one: straight segments do.
+
+        Parameters
+        ----------
+        element : ElementType
+
+        Returns
+        -------
+        ndarray of shape (elements,), radians, or None
+        """
+        if element is not ElementType.SEGMENT or len(self.edge_segment) != len(self.segment_length):
+            return None
+        return self.edge_heading
+
     def polygon_of(self, element: ElementType) -> Indices:
         """Index in `polygons` of the polygon of every element of a type.
 
@@ -174,8 +284,51 @@ class Elements:
         ndarray of int
         """
         if element is ElementType.POLYGON:
-            return np.arange(len(self.polygons))
+            return np.arange(len(self.polygon_orientation))
         return self.segment_polygon if element is ElementType.SEGMENT else self.corner_polygon
+
+
+_OF_EDGES = (
+    "edge_start",
+    "edge_vector",
+    "edge_direction",
+    "edge_heading",
+    "edge_length",
+    "edge_offset",
+    "edge_ring_offset",
+    "edge_ring_length",
+    "edge_turns",
+)
+_OF_SEGMENTS = ("segment_polygon", "segment_length", "segment_curvature", "segment_closed")
+_OF_CORNERS = ("corner_polygon", "corner_vertex", "corner_before", "corner_opening")
+_OF_POLYGONS = ("polygon_centroid", "polygon_orientation")
+_ARRAYS = (*_OF_EDGES, *_OF_SEGMENTS, *_OF_CORNERS, *_OF_POLYGONS, "edge_polygon", "edge_segment")
+
+#: The features of polygons that are in use: they are asked for again with every arrangement that holds them.
+_KEPT: WeakKeyDictionary[Polygon, Elements] = WeakKeyDictionary()
+
+
+def ranges(start: Indices, count: Indices) -> Indices:
+    """Runs of whole numbers, one after another.
+
+    Parameters
+    ----------
+    start, count : ndarray of shape (n,), int
+        First number and length of each run.
+
+    Returns
+    -------
+    ndarray of shape (sum of `count`,), int
+
+    Examples
+    --------
+    >>> ranges(np.array([5, 0, 8]), np.array([2, 0, 3])).tolist()
+    [5, 6, 8, 9, 10]
+    """
+    before = np.cumsum(count) - count
+    runs: Indices = np.arange(count.sum())
+    runs += np.repeat(start - before, count)
+    return runs
 
 
 def _turns(steps: Array) -> Array:

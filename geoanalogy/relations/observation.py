@@ -12,6 +12,7 @@ from ..tolerances import ZERO_LENGTH
 from .elements import Elements
 
 Array = NDArray[np.float64]
+Directions = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
@@ -88,7 +89,7 @@ class Observation:
         column = np.arange(n)
         place = along[best, column]
         between = (place > 0) & (place < e.edge_length[best])
-        tangent = np.arctan2(e.edge_vector[:, 1], e.edge_vector[:, 0])[best]
+        tangent = e.edge_heading[best]
         distance = distance[best, column]
         end = (place > 0).astype(np.intp)
         row, point = np.nonzero(~between & (distance > 0) & ~ends[best, end])
@@ -97,10 +98,10 @@ class Observation:
         # Points nearest to a vertex lie on the outer side of its turn.
         side = np.where(e.edge_turns[edge, end] > 0, np.pi / 2, -np.pi / 2)
         tangent[row, point] = np.arctan2(way[:, 1], way[:, 0]) + side
-        across = e.edge_vector[best, 0] * (self.points[:, 1] - e.edge_start[best, 1])
-        across -= e.edge_vector[best, 1] * (self.points[:, 0] - e.edge_start[best, 0])
+        across = e.edge_direction.real[best] * (self.points[:, 1] - e.edge_start[best, 1])
+        across -= e.edge_direction.imag[best] * (self.points[:, 0] - e.edge_start[best, 0])
         # Round a vertex the two edges may disagree; there the points lie on the outer side of its turn.
-        left = across >= 0
+        left = across >= -ZERO_LENGTH * e.edge_length[best]
         left[row, point] = e.edge_turns[edge, end] <= 0
         return Nearest(distance, place + offset[best], tangent, between, best, left)
 
@@ -119,8 +120,8 @@ class Observation:
         ends = np.zeros((len(e.edge_polygon), 2), dtype=bool)
         return self._nearest(e.edge_polygon, len(e.polygons), e.edge_ring_offset, ends)
 
-    def away(self, nearest: Nearest) -> Array:
-        """Direction (radians) from nearest places to the points: where the distance grows.
+    def away(self, nearest: Nearest) -> Directions:
+        """Direction from nearest places to the points: where the distance grows.
 
         Parameters
         ----------
@@ -129,8 +130,8 @@ class Observation:
 
         Returns
         -------
-        ndarray of shape (elements, points)
-            Where a point lies on the boundary, to the interior's side.
+        ndarray of shape (elements, points), complex
+            Of length 1. Where a point lies on the boundary, to the interior's side.
         """
         e = self.elements
         along = self._edges[0][nearest.edge, np.arange(len(self.points))]
@@ -138,7 +139,24 @@ class Observation:
         x = self.points[:, 0] - e.edge_start[nearest.edge, 0] - share * e.edge_vector[nearest.edge, 0]
         y = self.points[:, 1] - e.edge_start[nearest.edge, 1] - share * e.edge_vector[nearest.edge, 1]
         touching = nearest.distance <= ZERO_LENGTH * e.edge_length[nearest.edge]
-        return np.where(touching, nearest.tangent + np.pi / 2, np.arctan2(y, x))
+        return np.where(
+            touching, 1j * e.edge_direction[nearest.edge], (x + 1j * y) / np.where(touching, 1.0, np.hypot(x, y))
+        )
+
+    def along(self, nearest: Nearest) -> Directions:
+        """Direction of the boundary at nearest places.
+
+        Parameters
+        ----------
+        nearest : Nearest
+            `segment` or `boundary`.
+
+        Returns
+        -------
+        ndarray of shape (elements, points), complex
+            Of length 1.
+        """
+        return np.exp(1j * nearest.tangent)
 
     @cached_property
     def inside(self) -> NDArray[np.bool_]:
@@ -157,9 +175,16 @@ class Observation:
         return np.hypot(x, y), np.arctan2(y, x)
 
     @cached_property
+    def from_corner(self) -> Directions:
+        """Direction from each corner to each point, of length 1 or, at the corner, 0; shape (corners, points)."""
+        v = self.elements.corner_vertex
+        way = (self.points[:, 0] - v[:, :1]) + 1j * (self.points[:, 1] - v[:, 1:])
+        return np.divide(way, self.corner[0], out=np.zeros_like(way), where=self.corner[0] > 0)
+
+    @cached_property
     def centroid(self) -> tuple[Array, Array]:
         """Distance and direction (radians) from each point to each polygon's centroid; both (polygons, points)."""
-        c = np.array([p.centroid for p in self.elements.polygons]).reshape(-1, 2)
+        c = self.elements.polygon_centroid
         x = c[:, :1] - self.points[:, 0]
         y = c[:, 1:] - self.points[:, 1]
         return np.hypot(x, y), np.arctan2(y, x)

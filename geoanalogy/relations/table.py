@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .elements import Elements, ElementType
-from .observation import Observation
+from .observation import Directions, Observation
 
 Array = NDArray[np.float64]
 
@@ -62,7 +62,7 @@ class Positional:
         difference in value into a distance in the plane, which is what a level set's width is (section 4.5 rasterises
         lines of fixed width).
     uphill : callable
-        (Observation) -> ndarray (elements, points): the direction in radians in which the value grows.
+        (Observation) -> complex ndarray (elements, points): the direction in which the value grows, of length 1.
     directional : Directional or None
         The directional relation it is intersected with (section 4.5); None: placements without direction only (chapter
         5).
@@ -75,7 +75,7 @@ class Positional:
     kind: Kind
     value: Callable[[Observation], Array]
     slope: Callable[[Observation], Array]
-    uphill: Callable[[Observation], Array]
+    uphill: Callable[[Observation], Directions]
     directional: Directional | None = None
     period: Callable[[Elements], Array] | None = None
 
@@ -128,8 +128,7 @@ def _constant_period(element: ElementType, period: float) -> Callable[[Elements]
 
 
 def _centroid_direction(seen: Observation) -> Array:
-    principal = np.array([p.main_orientation for p in seen.elements.polygons])
-    return (seen.centroid[1] - principal[:, None]) % (2 * np.pi)
+    return (seen.centroid[1] - seen.elements.polygon_orientation[:, None]) % (2 * np.pi)
 
 
 def _centroid_direction_slope(seen: Observation) -> Array:
@@ -153,9 +152,10 @@ def _box_coordinate(axis: int, origin: Callable[[Array, Array], Array]) -> Calla
     return value
 
 
-def _box_axis(axis: int) -> Callable[[Observation], Array]:
-    def uphill(seen: Observation) -> Array:
-        return np.full((len(seen.elements.polygons), len(seen.points)), seen.elements.frame + axis * np.pi / 2)
+def _box_axis(axis: int) -> Callable[[Observation], Directions]:
+    def uphill(seen: Observation) -> Directions:
+        direction = np.exp(1j * (seen.elements.frame + axis * np.pi / 2))
+        return np.full((len(seen.elements.polygons), len(seen.points)), direction)
 
     return uphill
 
@@ -207,7 +207,7 @@ POSE_RELATIONS: tuple[Positional, ...] = (
         Kind.RATIO,
         _segment_arc_length,
         _segment_arc_slope,
-        lambda seen: seen.segment.tangent,
+        lambda seen: seen.along(seen.segment),
         SEGMENT_ANGLE,
         _segment_period,
     ),
@@ -217,7 +217,7 @@ POSE_RELATIONS: tuple[Positional, ...] = (
         Kind.LENGTH,
         _corner_distance,
         _unit(_corner_distance),
-        lambda seen: seen.corner[1],
+        lambda seen: seen.from_corner,
         CORNER_ANGLE,
     ),
     Positional(
@@ -226,7 +226,7 @@ POSE_RELATIONS: tuple[Positional, ...] = (
         Kind.RATIO,
         _corner_ratio,
         _corner_ratio_slope,
-        lambda seen: seen.corner[1] - np.pi / 2,
+        lambda seen: -1j * seen.from_corner,
         CORNER_ANGLE,
         _constant_period(ElementType.CORNER, 2.0),
     ),
@@ -239,7 +239,7 @@ CENTROID_DIRECTION = Positional(
     Kind.ANGLE,
     _centroid_direction,
     _centroid_direction_slope,
-    lambda seen: seen.centroid[1] - np.pi / 2,
+    lambda seen: -1j * np.exp(1j * seen.centroid[1]),
     CENTROID_ANGLE,
     _constant_period(ElementType.POLYGON, 2 * np.pi),
 )
@@ -251,7 +251,7 @@ FIXED_START_ARC_LENGTH = Positional(
     Kind.RATIO,
     _fixed_start_arc_length,
     _fixed_start_arc_slope,
-    lambda seen: seen.boundary.tangent,
+    lambda seen: seen.along(seen.boundary),
     BOUNDARY_ANGLE,
     _constant_period(ElementType.POLYGON, 1.0),
 )

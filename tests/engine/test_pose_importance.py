@@ -11,6 +11,8 @@ from strategies import Similarity
 
 from geoanalogy import Polygon, Pose, PoseOptions, Scene, learn_pose
 from geoanalogy.poses.arrangement import arrangement_of
+from geoanalogy.poses.batch import Batch
+from geoanalogy.poses.candidates import Candidates
 from geoanalogy.poses.importance import Importance
 from geoanalogy.poses.matching import Sense, Symmetry, matching_accuracy, senses
 from geoanalogy.poses.query import CONTEXT, FOOTPRINT_REACH, Query, footprint_samples
@@ -231,6 +233,12 @@ def own_entries(importance, element):
     return np.repeat(a.source_feature == a.target_feature, size)
 
 
+def missed(importance, position, angle):
+    """The misses of one pose per type of element."""
+    rows = Batch([importance]).rows(np.zeros(1, dtype=int))
+    return {r.element: r.misses(np.reshape(position, (1, 2)), np.array([angle]), uphill=True) for r in rows}
+
+
 @pytest.mark.parametrize("name", EVERY_RELATION)
 def test_misses_grow_uphill_at_one_unit_per_unit_and_not_across(name):
     """Numerical derivatives on the level set, where the example stands."""
@@ -238,17 +246,18 @@ def test_misses_grow_uphill_at_one_unit_per_unit_and_not_across(name):
     scene, element, step, checked = scene_of(things), RELATIONS[name].element, 1e-6, 0
     for place in np.random.default_rng(5).uniform((0.2, 0.2), (3.8, 2.8), (12, 2)):
         importance = importance_of(scene, Pose(place, 0.2), relations=(name,), local_importance="constant")
-        own, angle = own_entries(importance, element), np.array([0.2])
-        here = importance.misses(place[None], angle, uphill=True)[element]
-        assert here.place[0, own, 0] == pytest.approx(0, abs=1e-9)
+        own = own_entries(importance, element)
+        here = missed(importance, place, 0.2)[element]
+        assert here.place[0, own] == pytest.approx(0, abs=1e-9)
         feature = importance.answers[element].target[own]
         seen = Observation(importance.target.elements, place[None])
         sloping = np.broadcast_to(RELATIONS[name].slope(seen), RELATIONS[name].value(seen).shape)[feature, 0] > 0
         for k in np.flatnonzero(sloping):
-            up = here.uphill[0, own, 0][k]
-            for turn, growth in ((0.0, 1.0), (np.pi / 2, 0.0)):
-                way = step * np.array([[np.cos(up + turn), np.sin(up + turn)]])
-                there, back = (importance.misses(place + s * way, angle)[element].place[0, own, 0][k] for s in (1, -1))
+            up = here.uphill[0, own][k]
+            assert abs(up) == pytest.approx(1)
+            for way, growth in ((up, 1.0), (1j * up, 0.0)):
+                ahead = step * np.array([way.real, way.imag])
+                there, back = (missed(importance, place + s * ahead, 0.2)[element].place[0, own][k] for s in (1, -1))
                 assert (there - back) / (2 * step) == pytest.approx(growth, abs=1e-3)
                 checked += 1
     assert checked >= 24
@@ -256,8 +265,8 @@ def test_misses_grow_uphill_at_one_unit_per_unit_and_not_across(name):
 
 def test_turns_wrap_around():
     importance = importance_of(scene_of(BEDROOM), Pose(BED_POSE.position, 3.1))
-    for element, misses in importance.misses(np.array([BED_POSE.position]), np.array([-3.1])).items():
-        own = misses.turn[:, own_entries(importance, element), 0]
+    for element, misses in missed(importance, BED_POSE.position, -3.1).items():
+        own = misses.turn[:, own_entries(importance, element)]
         assert own == pytest.approx(np.full(own.shape, 2 * np.pi - 6.2), abs=1e-9)
 
 
@@ -266,7 +275,8 @@ def test_refinement_leads_back_to_the_example(footprint):
     importance = importance_of(scene_of(BEDROOM), BED_POSE, footprint)
     rng = np.random.default_rng(2)
     start = BED_POSE.position + rng.uniform(-1, 1, (8, 2)) * importance.width
-    position, angle, value = refine(importance, start, BED_POSE.angle + rng.uniform(-0.08, 0.08, 8))
+    refined = refine([importance], [Candidates(start, BED_POSE.angle + rng.uniform(-0.08, 0.08, 8))])
+    position, angle, value = refined.position, refined.angle, refined.value
     best = int(np.argmax(value))
     assert value[best] == pytest.approx(1, abs=1e-4)
     assert position[best] == pytest.approx(np.array(BED_POSE.position), abs=1e-3 * np.sqrt(20))
@@ -282,3 +292,21 @@ def test_an_example_that_nothing_holds_is_worth_nothing():
     model = learn_pose(scene, Pose((50, 50)), options=muted)
     assert model.query.total == 0
     assert list(model.place(scene)) == []
+
+
+def test_importances_side_by_side_are_what_they_are_alone():
+    """In rooms of other sizes, in both senses and at two scales: nothing of one leaks into another."""
+    scene = scene_of(BEDROOM, Similarity(0.4, 1.3, (12, 1)), Similarity(-1.0, 0.8, (0, 12)))
+    source = arrangement_of(scene, scene.polygon("room 0"))
+    query = Query(source, BED_POSE, L_DESK, PoseOptions(mirror=True))
+    rooms = [arrangement_of(scene, scene.polygon(f"room {k}")) for k in (2, 0, 1)]
+    several = [Importance(query, room, sense, scale) for room in rooms for sense in senses(query) for scale in (1, 1.2)]
+    rng = np.random.default_rng(3)
+    which = np.sort(rng.integers(0, len(several), 60))
+    low, high = (np.array([r.parent.bounds[side] for r in rooms]) for side in (slice(0, 2), slice(2, 4)))
+    room = np.array([rooms.index(several[k].target) for k in which])
+    position, angle = rng.uniform(low[room], high[room]), rng.uniform(0, 2 * np.pi, 60)
+    together = Batch(several).importance(which, position, angle)
+    alone = [several[k](p[None], a[None])[0] for k, p, a in zip(which, position, angle, strict=True)]
+    assert together == pytest.approx(np.array(alone), abs=1e-12)
+    assert np.ptp(together) > 0.1

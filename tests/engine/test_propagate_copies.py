@@ -18,7 +18,7 @@ from strategies import Similarity
 
 import geoanalogy as ga
 from geoanalogy import Polygon, Pose, PoseOptions, PropagatedPose, Scene, propagate_pose
-from geoanalogy.poses.propagate import SETTLED_EVERY
+from geoanalogy.poses.propagate import TOGETHER
 from geoanalogy.poses.results import PoseResults
 
 #: Shapes that are no image of themselves, and a place inside.
@@ -186,13 +186,12 @@ def test_disjoint_keeps_what_can_be_placed_together():
 
 def test_thinning_results_computes_nothing_again(monkeypatch):
     results = propagate_pose(scene_of(BEDROOM, ELSEWHERE), BED_POSE, BED)
-    from geoanalogy.poses import importance
+    from geoanalogy.poses.batch import Rows
 
     def never(*_arguments, **_options):
         raise AssertionError("computed again")
 
-    monkeypatch.setattr(importance.Importance, "__call__", never)
-    monkeypatch.setattr(importance.Importance, "misses", never)
+    monkeypatch.setattr(Rows, "misses", never)
     thinned = results.above(0.2).max_per("bedroom", 1).apart(0.5).disjoint()
     assert 0 < len(thinned) <= len(results)
     assert set(map(id, thinned)) <= set(map(id, results))
@@ -268,5 +267,5 @@ def test_many_rooms_are_not_remembered_at_once():
 
     results = propagate_pose(scene, BED_POSE, BED, PoseOptions(cells=200_000, candidates=1), progress)
     assert {r.parent.id for r in results} >= {f"room {k}" for k in range(1, 64)}
-    assert max(held) <= scene.memory.limit + SETTLED_EVERY * max(largest)
+    assert max(held) <= scene.memory.limit + TOGETHER * max(largest)
     assert max(held) < 64 * max(largest) / 2

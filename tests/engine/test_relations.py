@@ -22,6 +22,7 @@ from shapes import (
 from geoanalogy import Polygon
 from geoanalogy.relations.elements import Elements, ElementType
 from geoanalogy.relations.observation import Observation
+from geoanalogy.relations.sighting import Sighting
 from geoanalogy.relations.table import (
     BOUNDARY_ANGLE,
     BOX_RELATIONS,
@@ -297,8 +298,32 @@ def test_slope_is_the_length_of_the_gradient(name, outline):
     slope = relation.slope(Observation(elements, points))
     assert slope[smooth] == pytest.approx(np.hypot(*ahead)[smooth], abs=2e-3)
     uphill = relation.uphill(Observation(elements, points))
-    up = np.cos(uphill) * ahead[0] + np.sin(uphill) * ahead[1]
+    up = uphill.real * ahead[0] + uphill.imag * ahead[1]
     assert up[smooth] == pytest.approx(np.hypot(*ahead)[smooth], abs=2e-3)
+
+
+@pytest.mark.parametrize("name", [n for n, r in RELATIONS.items() if r not in BOX_RELATIONS])
+def test_a_sighting_sees_of_each_pair_what_an_observation_does(name):
+    """Of rings with sharp, smooth and reflex vertices and with holes, from inside, outside and the very vertices."""
+    relation = RELATIONS[name]
+    outlines = [UNIT_SQUARE, CIRCLE + 5, L_ROOM, STAR - 3]
+    polygons = [*(Polygon(o) for o in outlines), Polygon(HOLED_ROOM, holes=[COURTYARD])]
+    elements = Elements.joined([Elements.of(polygons[:2]), Elements.of(polygons[2:])])
+    rng = np.random.default_rng(4)
+    points = np.concatenate([rng.normal(scale=4, size=(40, 2)), L_ROOM, STAR - 3])
+    seen = Observation(elements, points)
+    feature = rng.integers(0, elements.count(relation.element), 300)
+    point = rng.integers(0, len(points), 300)
+    chosen = elements.take(relation.element, feature)
+    one = Sighting(chosen, relation.element, *points[point].T)
+    functions = (relation.value, relation.slope, relation.uphill, relation.directional.reference)
+    for function in functions:
+        expected = np.broadcast_to(function(seen), (len(relation.value(seen)), len(points)))[feature, point]
+        assert function(one).shape == (300, 1)
+        assert function(one)[:, 0] == pytest.approx(expected, abs=1e-9, nan_ok=True)
+    if relation.element is not ElementType.CORNER:
+        nearest = "boundary" if relation.element is ElementType.POLYGON else "segment"
+        assert np.array_equal(getattr(one, nearest).left[:, 0], getattr(seen, nearest).left[feature, point])
 
 
 def _wrapped(difference, period):

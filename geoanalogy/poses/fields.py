@@ -1,0 +1,298 @@
+"""The fields of all relations over a polygon: values on a grid that depend on the scene alone (section 4.5)."""
+
+from collections.abc import Iterable, Sequence
+from functools import cached_property
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from ..geometry.polygon import Polygon
+from ..relations.elements import Elements, ElementType
+from ..relations.observation import Observation
+from ..relations.table import RELATIONS, Kind, Positional
+
+Array = NDArray[np.float64]
+Array32 = NDArray[np.float32]
+Indices = NDArray[np.intp]
+
+#: Stands for an infinite distance in the plane where a value does not change with the point; larger than any scene,
+#: and finite in float32.
+FAR = 1e30
+
+
+class Grid:
+    """Points in a regular grid over a polygon and a margin around it.
+
+    Parameters
+    ----------
+    polygon : Polygon
+    spacing : float
+        Distance between neighbours, scene units.
+    margin : float
+        Width around the polygon's box that is covered too.
+    """
+
+    def __init__(self, polygon: Polygon, spacing: float, margin: float) -> None:
+        self.spacing = spacing
+        low, high = polygon.bounds[:2] - margin, polygon.bounds[2:] + margin
+        # Centred on the polygon: the grid moves with it.
+        self.columns, self.rows = (int(np.ceil(v)) + 1 for v in (high - low) / spacing)
+        self.origin = (low + high) / 2 - spacing * (np.array([self.columns, self.rows]) - 1) / 2
+
+    def __len__(self) -> int:
+        return self.columns * self.rows
+
+    @cached_property
+    def points(self) -> Array:
+        """All points, row by row; shape (rows * columns, 2)."""
+        x = self.origin[0] + self.spacing * np.arange(self.columns)
+        y = self.origin[1] + self.spacing * np.arange(self.rows)
+        return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+
+    def steps(self, offset: Array) -> NDArray[np.intp]:
+        """Offsets in the plane as whole steps along the columns and rows.
+
+        Parameters
+        ----------
+        offset : ndarray of shape (n, 2)
+
+        Returns
+        -------
+        ndarray of shape (n, 2), int
+        """
+        return np.rint(offset / self.spacing).astype(np.intp)
+
+
+#: Rows for the features of polygons that are gone, in proportion to those in use, at which all are forgotten.
+STALE = 4
+
+
+class Sheets:
+    """The values of relations to the features of polygons on one grid: a row per feature.
+
+    A polygon's rows are kept when others come or go: an edit in a room costs what it adds.
+
+    Parameters
+    ----------
+    grid : Grid
+    """
+
+    def __init__(self, grid: Grid) -> None:
+        self.grid = grid
+        self._forget()
+
+    def _forget(self) -> None:
+        self._first: dict[tuple[ElementType, object], Indices] = {}
+        self._used = dict.fromkeys(ElementType, 0)
+        self._kept: dict[str, Array32] = {}
+        self._done: set[tuple[str, object]] = set()
+        self._covered: dict[object, NDArray[np.bool_]] = {}
+
+    @property
+    def nbytes(self) -> int:
+        """Memory held, in bytes."""
+        return sum(v.nbytes for v in self._kept.values()) + sum(v.nbytes for v in self._covered.values())
+
+    def evaluate(self, polygons: Sequence[Polygon], relations: Sequence[Positional]) -> None:
+        """Evaluate relations to polygons that are not there yet, all together: they share what the points see.
+
+        Parameters
+        ----------
+        polygons : sequence of Polygon
+        relations : sequence of Positional
+        """
+        names = [r.name for r in relations]
+        missing = [p for p in polygons if any((n, p.content) not in self._done for n in names)]
+        if not missing:
+            return
+        if len({c for _, c in self._first}) > STALE * len(polygons):
+            self._forget()
+            missing = list(polygons)
+        elements = Elements.of(missing)
+        seen = Observation(elements, self.grid.points)
+        rows = {e: self._rows_of(e, elements) for e in {r.element for r in relations}}
+        for relation in relations:
+            mine = rows[relation.element]
+            value = relation.value(seen)
+            self._write(f"{relation.name} value", relation.element, mine, value)
+            if relation.kind is not Kind.LENGTH:
+                slope = np.broadcast_to(relation.slope(seen), value.shape)
+                reach = np.divide(1.0, slope, out=np.full(value.shape, FAR), where=slope > 0)
+                self._write(f"{relation.name} reach", relation.element, mine, np.minimum(reach, FAR))
+            if relation.directional is not None:
+                self._write(relation.directional.name, relation.element, mine, relation.directional.reference(seen))
+        self._done.update((n, p.content) for n in names for p in missing)
+
+    def _rows_of(self, element: ElementType, elements: Elements) -> Indices:
+        """The rows of elements, found or made."""
+        owner = elements.polygon_of(element)
+        for i, polygon in enumerate(elements.polygons):
+            key = (element, polygon.content)
+            if key not in self._first:
+                count = int((owner == i).sum())
+                self._first[key] = np.arange(self._used[element], self._used[element] + count)
+                self._used[element] += count
+        return self.rows(element, elements.polygons)
+
+    def rows(self, element: ElementType, polygons: Sequence[Polygon]) -> Indices:
+        """The rows of the features of polygons, one polygon after another.
+
+        Parameters
+        ----------
+        element : ElementType
+        polygons : sequence of Polygon
+            Evaluated.
+
+        Returns
+        -------
+        ndarray of int
+        """
+        return np.concatenate([self._first[element, p.content] for p in polygons])
+
+    def _write(self, name: str, element: ElementType, rows: Indices, values: Array) -> None:
+        kept = self._kept.get(name)
+        if kept is None or len(kept) < self._used[element]:
+            # Room for as many again: members come one by one.
+            more = np.empty((2 * self._used[element], len(self.grid)), dtype=np.float32)
+            if kept is not None:
+                more[: len(kept)] = kept
+            kept = self._kept[name] = more
+        kept[rows] = values
+
+    def __getitem__(self, name: str) -> Array32:
+        """The rows of a field by its name; shape (rows, points)."""
+        return self._kept[name]
+
+    def covered(self, polygon: Polygon) -> NDArray[np.bool_]:
+        """Whether a polygon covers each point; shape (points,).
+
+        Parameters
+        ----------
+        polygon : Polygon
+
+        Returns
+        -------
+        ndarray of bool
+        """
+        kept = self._covered.get(polygon.content)
+        if kept is None:
+            kept = self._covered[polygon.content] = shapely.intersects_xy(polygon.shape, *self.grid.points.T)
+        return kept
+
+
+class Fields:
+    """Every relation's value at every grid point, for the features of an arrangement.
+
+    Parameters
+    ----------
+    polygons : sequence of Polygon
+        The arrangement's.
+    sheets : Sheets
+    """
+
+    def __init__(self, polygons: Sequence[Polygon], sheets: Sheets) -> None:
+        self.grid = sheets.grid
+        self._polygons = polygons
+        self._sheets = sheets
+        #: Fields by name, and the rows of the arrangement's features in them.
+        self._rows: dict[str, tuple[Array32, Indices]] = {}
+
+    def evaluate(self, relations: Iterable[Positional]) -> None:
+        """Evaluate relations that are not there yet.
+
+        Parameters
+        ----------
+        relations : iterable of Positional
+        """
+        wanted = [r for r in dict.fromkeys(relations) if f"{r.name} value" not in self._rows]
+        if not wanted:
+            return
+        self._sheets.evaluate(self._polygons, wanted)
+        for element in {r.element for r in wanted}:
+            rows = self._sheets.rows(element, self._polygons)
+            for relation in (r for r in wanted if r.element is element):
+                names = [f"{relation.name} value"]
+                if relation.kind is not Kind.LENGTH:
+                    names.append(f"{relation.name} reach")
+                if relation.directional is not None:
+                    names.append(relation.directional.name)
+                self._rows.update((name, (self._sheets[name], rows)) for name in names)
+
+    def value(self, relation: Positional, feature: Indices, where: Indices) -> Array32:
+        """The relation's value.
+
+        Parameters
+        ----------
+        relation : Positional
+            Evaluated.
+        feature : ndarray of shape (k,), int
+            Of the arrangement.
+        where : ndarray of shape (k, n) or (n,), int
+            Grid points.
+
+        Returns
+        -------
+        ndarray of shape (k, n), float32
+        """
+        return self._gather(f"{relation.name} value", feature, where)
+
+    def reach(self, relation: Positional, feature: Indices, where: Indices) -> Array32:
+        """Distance in the plane per unit of value: the inverse of the slope.
+
+        Parameters
+        ----------
+        relation : Positional
+            Evaluated, whose values are no lengths.
+        feature : ndarray of shape (k,), int
+        where : ndarray of shape (k, n) or (n,), int
+
+        Returns
+        -------
+        ndarray of shape (k, n), float32
+        """
+        return self._gather(f"{relation.name} reach", feature, where)
+
+    def direction(self, relation: Positional, feature: Indices, where: Indices) -> Array32:
+        """Reference direction of the relation's directional partner, radians.
+
+        Parameters
+        ----------
+        relation : Positional
+            Evaluated, with a directional partner.
+        feature : ndarray of shape (k,), int
+        where : ndarray of shape (k, n) or (n,), int
+
+        Returns
+        -------
+        ndarray of shape (k, n), float32
+        """
+        assert relation.directional is not None
+        return self._gather(relation.directional.name, feature, where)
+
+    def _gather(self, name: str, feature: Indices, where: Indices) -> Array32:
+        kept, rows = self._rows[name]
+        # Twice as fast as indexing with both.
+        return kept.ravel().take((rows[feature] * len(self.grid))[:, None] + where)
+
+    @cached_property
+    def boundary_distance(self) -> Array32:
+        """Distance of each point from each polygon's boundary; shape (polygons, points)."""
+        relation = RELATIONS["boundary distance"]
+        self.evaluate([relation])
+        kept, rows = self._rows[f"{relation.name} value"]
+        return kept[rows]
+
+    def covered(self, polygon: int) -> NDArray[np.bool_]:
+        """Whether a polygon of the arrangement covers each point; shape (points,).
+
+        Parameters
+        ----------
+        polygon : int
+            Its number.
+
+        Returns
+        -------
+        ndarray of bool
+        """
+        return self._sheets.covered(self._polygons[polygon])

@@ -1,0 +1,163 @@
+"""Chosen elements, each as seen from one point of its own: what a few pairs of many arrangements need."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..tolerances import ZERO_LENGTH
+from .elements import Elements, ElementType, Indices
+from .observation import Array, Directions, Nearest, Observation
+
+
+@dataclass(frozen=True)
+class NearestOfOne(Nearest):
+    """The boundary place of one element nearest to one point, for many such pairs; all shapes are (n, 1).
+
+    Attributes
+    ----------
+    way : ndarray of shape (n, 1), complex
+        Direction from the place to the point, of length 1; to the interior's side where they coincide.
+    """
+
+    way: Directions
+
+
+class Sighting(Observation):
+    """Elements of one type, each seen from one point.
+
+    To relationship functions it is an observation of `n` elements from a single point: what they return has the shape
+    (n, 1).
+
+    Parameters
+    ----------
+    elements : Elements
+        Chosen by `Elements.take`.
+    element : ElementType
+        Their type.
+    x, y : ndarray of shape (n,)
+        The point of each, scene coordinates.
+    """
+
+    def __init__(self, elements: Elements, element: ElementType, x: Array, y: Array) -> None:
+        super().__init__(elements, np.zeros((1, 2)))
+        self._element = element
+        self._x = x
+        self._y = y
+
+    def _nearest_of_own(self, owner: Indices, offset: Array, ends: NDArray[np.bool_] | None) -> NearestOfOne:
+        """`ends`: at which of their two vertices edges have no neighbour in their element; None: at both."""
+        e = self.elements
+        single = len(owner) == len(self._x)
+        x = (self._x if single else self._x[owner]) - e.edge_start[:, 0]
+        y = (self._y if single else self._y[owner]) - e.edge_start[:, 1]
+        ux, uy = e.edge_direction.real, e.edge_direction.imag
+        along = np.clip(x * ux + y * uy, 0.0, e.edge_length)
+        x -= along * ux
+        y -= along * uy
+        distance = np.hypot(x, y)
+        edge = np.arange(len(owner))
+        if not single:
+            first = np.flatnonzero(np.append(True, np.diff(owner) != 0))
+            least = np.minimum.reduceat(distance, first)
+            at = np.flatnonzero(distance == least[owner])
+            edge = at[np.append(True, np.diff(owner[at]) != 0)]
+            x, y, along, distance = x[edge], y[edge], along[edge], distance[edge]
+            ux, uy = ux[edge], uy[edge]
+        between = (along > 0) & (along < e.edge_length[edge])
+        tangent = e.edge_heading[edge]
+        close = ZERO_LENGTH * e.edge_length[edge]
+        left = ux * y - uy * x >= -close
+        touching = distance <= close
+        away = np.where(touching, 1.0, distance)
+        way = (np.where(touching, -uy, x) + 1j * np.where(touching, ux, y)) / away
+        if ends is not None:
+            end = (along > 0).astype(np.intp)
+            row = np.flatnonzero(~between & (distance > 0) & ~ends[edge, end])
+            outer = e.edge_turns[edge[row], end[row]] > 0
+            # As in an observation: round a vertex the tangent is at right angles to the way.
+            tangent = tangent.copy()
+            tangent[row] = np.arctan2(y[row], x[row]) + np.where(outer, np.pi / 2, -np.pi / 2)
+            left[row] = ~outer
+        return NearestOfOne(
+            distance=distance[:, None],
+            arc=(along + offset[edge])[:, None],
+            tangent=tangent[:, None],
+            between=between[:, None],
+            edge=edge[:, None],
+            left=left[:, None],
+            way=way[:, None],
+        )
+
+    @cached_property
+    def segment(self) -> NearestOfOne:
+        """Nearest place on the segment of each pair; arcs from the segment's start."""
+        e = self.elements
+        ends = None
+        if len(e.edge_segment) > len(self._x) or e.segment_closed.any():
+            last = np.append(np.diff(e.edge_segment) != 0, True)
+            ends = np.stack([np.roll(last, 1), last], axis=1) & ~e.segment_closed[e.edge_segment, None]
+        return self._nearest_of_own(e.edge_segment, e.edge_offset, ends)
+
+    @cached_property
+    def boundary(self) -> NearestOfOne:
+        """Nearest place on the boundary of the polygon of each pair; arcs from its ring's first vertex."""
+        e = self.elements
+        return self._nearest_of_own(e.edge_polygon, e.edge_ring_offset, np.zeros((len(e.edge_polygon), 2), dtype=bool))
+
+    def away(self, nearest: Nearest) -> Directions:
+        """Direction from nearest places to the points: where the distance grows.
+
+        Parameters
+        ----------
+        nearest : Nearest
+            `segment` or `boundary`.
+
+        Returns
+        -------
+        ndarray of shape (n, 1), complex
+        """
+        assert isinstance(nearest, NearestOfOne)
+        return nearest.way
+
+    def along(self, nearest: Nearest) -> Directions:
+        """Direction of the boundary at nearest places.
+
+        Parameters
+        ----------
+        nearest : Nearest
+            `segment` or `boundary`.
+
+        Returns
+        -------
+        ndarray of shape (n, 1), complex
+        """
+        direction = self.elements.edge_direction[nearest.edge]
+        turned = nearest.tangent != self.elements.edge_heading[nearest.edge]
+        direction[turned] = np.exp(1j * nearest.tangent[turned])
+        return direction
+
+    @cached_property
+    def corner(self) -> tuple[Array, Array]:
+        """Distance and direction (radians) from the corner of each pair to its point; both (n, 1)."""
+        way = self._from_corner
+        return np.abs(way), np.angle(way)
+
+    @cached_property
+    def _from_corner(self) -> Directions:
+        vertex = self.elements.corner_vertex
+        return ((self._x - vertex[:, 0]) + 1j * (self._y - vertex[:, 1]))[:, None]
+
+    @cached_property
+    def from_corner(self) -> Directions:
+        """Direction from the corner of each pair to its point, of length 1 or, at the corner, 0; shape (n, 1)."""
+        way, away = self._from_corner, self.corner[0]
+        return np.divide(way, away, out=np.zeros_like(way), where=away > 0)
+
+    @cached_property
+    def centroid(self) -> tuple[Array, Array]:
+        """Distance and direction (radians) from the point of each pair to its polygon's centroid; both (n, 1)."""
+        centroid = self.elements.polygon_centroid
+        x, y = centroid[:, 0] - self._x, centroid[:, 1] - self._y
+        return np.hypot(x, y)[:, None], np.arctan2(y, x)[:, None]
