@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geoanalogy import PoseModel, Scene
-from geoanalogy.poses.importance import wrap
+from geoanalogy.poses.kernels import wrap
 from geoanalogy.relations.elements import Elements, ElementType
 from geoanalogy.relations.observation import Observation
 from geoanalogy.relations.table import Kind
