@@ -18,13 +18,18 @@ from ..geometry.polygon import Polygon, signed_area
 from ..geometry.scene import Scene
 from . import names
 from .footprints import footprint_ring_of
-from .planes import Plane, best_plane, extent
+from .planes import SAME_PLANE_ASIDE, Plane, best_plane, extent
 from .shapes import KINDS, Ring, rings_of
 
 Array = NDArray[np.float64]
 
 #: What was derived from scenes; it is kept by content, so that nothing in it is ever out of date.
 memory = Memory()
+
+
+#: Share of the width and of the height of what is drawn that lies over something else where the one is drawn on the
+#: other.
+OVER = 0.05
 
 
 @dataclass(frozen=True)
@@ -176,7 +181,7 @@ def read_grounds(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, without
         )
     layers: list[_Layer] = []
     for flat in sorted(drawn, key=lambda d: (-d.size, d.item.name)):
-        layer = next((one for one in layers if one.plane.is_coplanar(flat.plane, max(one.size, flat.size))), None)
+        layer = next((one for one in layers if _lies_on(flat, one)), None)
         if layer is None:
             layers.append(layer := _Layer(flat.plane, flat.size))
         layer.polygons[flat.item.name] = _polygons(flat, layer.plane, labels[flat.item.name])
@@ -185,6 +190,19 @@ def read_grounds(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, without
         ring = footprint_ring_of(item, layer.plane, depsgraph)
         layer.polygons[item.name] = [_polygon(item, layer.plane, [ring], item.name, labels[item.name])]
     return [_ground(layer, scene, depsgraph) for layer in layers]
+
+
+def _lies_on(flat: _Drawn, layer: _Layer) -> bool:
+    """Whether what is drawn flat lies on a plane: nearly where it lies over what is there, else exactly."""
+    if layer.plane.is_coplanar(flat.plane, min(layer.size, flat.size), SAME_PLANE_ASIDE):
+        return True
+    if not layer.plane.is_coplanar(flat.plane, max(layer.size, flat.size)):
+        return False
+    points = layer.plane.to_plane(np.vstack([ring.points for ring in flat.rings]))[:, :2]
+    low, high = points.min(axis=0), points.max(axis=0)
+    bounds = np.array([p.bounds for polygons in layer.polygons.values() for p in polygons])
+    shared = np.minimum(bounds[:, 2:], high) - np.maximum(bounds[:, :2], low)
+    return bool((shared > OVER * (high - low)).all(axis=1).any())
 
 
 def _ground(layer: _Layer, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> Ground:

@@ -24,6 +24,9 @@ FLAT = 0.005
 #: Distance between two parallel planes, in sizes of what lies on them, below which they are one: a carpet on a floor.
 SAME_PLANE = 0.02
 
+#: The same where one does not lie over the other: facades in a row may stand a hand's breadth back.
+SAME_PLANE_ASIDE = 0.002
+
 
 @dataclass(frozen=True)
 class Plane:
@@ -92,7 +95,7 @@ class Plane:
         """
         return np.asarray(points, float) @ self.frame[:3, :3].T + self.frame[:3, 3]
 
-    def is_coplanar(self, other: "Plane", size: float) -> bool:
+    def is_coplanar(self, other: "Plane", size: float, share: float = SAME_PLANE) -> bool:
         """Whether another plane is this one, seen from either side, for things of a size.
 
         Parameters
@@ -100,14 +103,28 @@ class Plane:
         other : Plane
         size : float
             Scene units.
+        share : float
+            Of the size, how far apart they may be.
 
         Returns
         -------
         bool
         """
         parallel = np.linalg.norm(np.cross(self.normal, other.normal)) < PARALLEL
-        gap = abs(np.dot(self.normal, other.frame[:3, 3] - self.frame[:3, 3]))
-        return bool(parallel and gap <= SAME_PLANE * size)
+        return bool(parallel and self.gap_to(other) <= share * size)
+
+    def gap_to(self, other: "Plane") -> float:
+        """Distance from this plane to the origin of another.
+
+        Parameters
+        ----------
+        other : Plane
+
+        Returns
+        -------
+        float
+        """
+        return float(abs(np.dot(self.normal, other.frame[:3, 3] - self.frame[:3, 3])))
 
 
 def extent(points: Array) -> float:

@@ -118,13 +118,13 @@ def sight_on(plane: Plane, origin: ArrayLike, direction: ArrayLike) -> float | N
     return away if away > 0 else None
 
 
-def face_at(grounds: Iterable[Ground], point: ArrayLike) -> Face:
-    """The face that a point lies on.
+def face_at(grounds: Iterable[Ground], *points: ArrayLike) -> Face:
+    """The face that the first of some points lies on that lies on any.
 
     Parameters
     ----------
     grounds : iterable of Ground
-    point : array_like of shape (3,)
+    *points : array_like of shape (3,)
         In the world.
 
     Returns
@@ -134,17 +134,18 @@ def face_at(grounds: Iterable[Ground], point: ArrayLike) -> Face:
     Raises
     ------
     InputError
-        Where it lies on none.
+        Where none lies on any.
     """
-    found = []
-    for ground in grounds:
-        x, y, height = ground.plane.to_plane([point])[0]
-        polygon = ground.scene.parent_of((x, y))
-        if polygon is not None and abs(height) <= ON_FACE * polygon.size:
-            found.append((abs(height), len(found), Face(ground.plane, polygon)))
-    if not found:
-        raise InputError("there is no labelled face here; label the face in step 1, then draw on it")
-    return min(found)[2]
+    for point in points:
+        found = []
+        for ground in grounds:
+            x, y, height = ground.plane.to_plane([point])[0]
+            polygon = ground.scene.parent_of((x, y))
+            if polygon is not None and abs(height) <= ON_FACE * polygon.size:
+                found.append((abs(height), len(found), Face(ground.plane, polygon)))
+        if found:
+            return min(found)[2]
+    raise InputError("there is no labelled face here; label the face in step 1, then draw on it")
 
 
 def rectangle_between(face: Face, start: ArrayLike, end: ArrayLike) -> Rectangle:
@@ -222,7 +223,8 @@ def add_rectangles(
     grounds = grounds_to_draw_on(context)
     wanted = []
     for start, end, target in corners:
-        face = face_at(grounds, start)
+        # A corner that was set on the very edge of a face may lie a rounding beyond it.
+        face = face_at(grounds, start, np.add(start, end) / 2, end)
         wanted.append((rectangle_between(face, start, end), face.plane, target))
     holder = _collection(context.scene)
     for item in context.selected_objects:

@@ -27,7 +27,7 @@ from .tree_store import (
 
 
 def ground_for(grounds: list[Ground], plane: Plane) -> Ground:
-    """The ground on a plane; the largest one where none lies there, as for a tree from another file.
+    """The ground nearest to a plane; the largest one where none lies there, as for a tree from another file.
 
     Parameters
     ----------
@@ -40,7 +40,8 @@ def ground_for(grounds: list[Ground], plane: Plane) -> Ground:
     Ground
     """
     size = float((grounds[0].scene.bounds[2:] - grounds[0].scene.bounds[:2]).max())
-    return next((g for g in grounds if g.plane.is_coplanar(plane, size)), grounds[0])
+    there = [g for g in grounds if g.plane.is_coplanar(plane, size)]
+    return min(there, key=lambda g: g.plane.gap_to(plane), default=grounds[0])
 
 
 def examples_of(tree: bpy.types.NodeTree | None) -> set[str]:

@@ -100,4 +100,40 @@ class GroupEdit:
     transfer: Mapping[str, Any] = field(default_factory=dict)
 
 
-AnyEdit = Edit | ArrayEdit | ScatterEdit | GroupEdit
+FacadeBox = tuple[str, float, float, float, float]
+"""A facade, and the least and greatest x and y of a box on it, in the facade's own coordinates."""
+
+
+@dataclass(frozen=True)
+class PlacementEdit:
+    """A part put into a few boxes on facades, to be learned from.
+
+    Attributes
+    ----------
+    part : str
+        Name in the library of facades.
+    wanted, unwanted : tuple of FacadeBox
+        Examples of where it belongs, and of where it does not. Where the part is repeated, they are drawn and it stands
+        aside; else it stands in each.
+    fit : (str, str)
+        "scale" or "repeat", along and across.
+    gap : (float, float)
+        Least distance between repeated parts.
+    threshold : float
+    most : int or None
+        Most placements in one parent, the examples counted.
+    options : mapping
+        Settings of :class:`geoanalogy.PlacementOptions`.
+    """
+
+    part: str
+    wanted: tuple[FacadeBox, ...]
+    unwanted: tuple[FacadeBox, ...] = ()
+    fit: tuple[str, str] = ("scale", "scale")
+    gap: tuple[float, float] = (0.0, 0.0)
+    threshold: float = 0.5
+    most: int | None = None
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+
+AnyEdit = Edit | ArrayEdit | ScatterEdit | GroupEdit | PlacementEdit

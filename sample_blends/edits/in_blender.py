@@ -6,17 +6,27 @@ from collections.abc import Callable, Iterator, Sequence
 
 import bpy
 import numpy as np
+from mathutils import Matrix, Vector
 
-from geoanalogy import PoseOptions
-from geoanalogy.blender import recording, register
+from geoanalogy import PlacementOptions, PoseOptions
+from geoanalogy.blender import names, recording, register
+from geoanalogy.blender.placement_recording import placement_steps
+from geoanalogy.blender.rectangle_drawing import add_rectangles
 from geoanalogy.poses.arrays import ArrayOptions
 from geoanalogy.poses.local_mapping import TransferOptions
 from geoanalogy.poses.scatter import ScatterOptions
 from geoanalogy.progress import run
 
+from .. import stage
 from ..library import ASSETS
-from ..library.meshes import add_asset
-from .edit import AnyEdit, ArrayEdit, Edit, GroupEdit, Place, ScatterEdit
+from ..library.facades import PARTS, Part
+from ..library.meshes import add_asset, mesh_of
+from .edit import AnyEdit, ArrayEdit, Edit, GroupEdit, Place, PlacementEdit, ScatterEdit
+
+# What is upright stands on a wall: its z along the wall's y, its front along the wall's z.
+UPRIGHT = Matrix.Rotation(-np.pi / 2, 4, "X")
+# Depth below the ground at which parts stand aside.
+ASIDE = -40.0
 
 
 def make_edits(
@@ -75,4 +85,49 @@ def _group(context, edit: GroupEdit, holder, height, number):
     return recording.transfer_steps(context, items, TransferOptions(**edit.transfer), name=f"{number} group")
 
 
-_MAKE = {Edit: _single, ScatterEdit: _scatter, ArrayEdit: _array, GroupEdit: _group}
+def _placement(context, edit: PlacementEdit, holder, height, number):
+    part = PARTS[edit.part]
+    element, wanted = None, []
+    if "repeat" in edit.fit:
+        element = _part(part, Matrix.Translation((0.0, 0.0, ASIDE)), aside(context.scene))
+        context.scene.geoanalogy.rectangle_label = part.label
+    for boxes, target in ((edit.wanted, 1.0), (edit.unwanted, 0.0)):
+        for facade, x0, y0, x1, y1 in boxes:
+            where = context.scene.objects[facade].matrix_world
+            if element is not None or not target:
+                ends = (tuple(where @ Vector((x, y, 0.0))) for x, y in ((x0, y0), (x1, y1)))
+                wanted += add_rectangles(context, [(*ends, target)], part.label)
+            else:
+                item = _part(part, where @ Matrix.Translation(((x0 + x1) / 2, (y0 + y1) / 2, 0.0)) @ UPRIGHT, holder)
+                item.scale = ((x1 - x0) / part.size[0], 1.0, (y1 - y0) / part.size[1])
+                wanted.append(item)
+    return placement_steps(
+        context,
+        wanted,
+        element,
+        PlacementOptions(**edit.options),
+        fit=edit.fit,
+        gap=edit.gap,
+        threshold=edit.threshold,
+        max_per=None if edit.most is None else {"": edit.most},
+        name=f"{number} {edit.part}",
+    )
+
+
+def _part(part: Part, matrix: Matrix, holder: bpy.types.Collection) -> bpy.types.Object:
+    mesh = bpy.data.meshes.get(part.name) or mesh_of(part.name, part.solid())
+    item = bpy.data.objects.new(part.name, mesh)
+    holder.objects.link(item)
+    item.matrix_world = matrix
+    item[names.LABEL] = part.label
+    return item
+
+
+def aside(scene: bpy.types.Scene) -> bpy.types.Collection:
+    """The collection of parts that stand aside: they are not rendered, their copies are."""
+    holder = stage.collection(scene, "Aside")
+    holder.hide_render = True
+    return holder
+
+
+_MAKE = {Edit: _single, ScatterEdit: _scatter, ArrayEdit: _array, GroupEdit: _group, PlacementEdit: _placement}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from geoanalogy.operations.group_placement import GroupPlacement
 from geoanalogy.operations.node import Link, Node
 from geoanalogy.operations.operation import Operation
 from geoanalogy.operations.pose_placement import PosePlacement
+from geoanalogy.operations.rectangle_placement import RectanglePlacement
 from geoanalogy.operations.scatter_placement import ScatterPlacement
 from geoanalogy.poses.arrays import ArrayOptions, learn_array
 from geoanalogy.poses.group_transfer import GroupObject, GroupTransfer
@@ -19,8 +21,9 @@ from geoanalogy.poses.local_mapping import TransferOptions
 from geoanalogy.poses.scatter import ScatterModel, ScatterOptions
 
 from ..library import ASSETS
+from ..library.facades import PARTS
 from ..plans.outlines import PlanPolygon
-from .edit import AnyEdit, ArrayEdit, Edit, GroupEdit, Place, ScatterEdit
+from .edit import AnyEdit, ArrayEdit, Edit, GroupEdit, Place, PlacementEdit, ScatterEdit
 
 
 def scene_of(polygons: Sequence[PlanPolygon]) -> ga.Scene:
@@ -34,7 +37,7 @@ def record(scene: ga.Scene, edits: Sequence[AnyEdit]) -> ga.OperationsTree:
     for number, edit in enumerate(edits, start=1):
         last = tree.nodes[-1].id if tree.nodes else None
         seen = scene if last is None else tree.layout(scene, last).scene
-        name = f"{number:02d} {edit.asset if not isinstance(edit, GroupEdit) else 'group'}"
+        name = f"{number:02d} {getattr(edit, 'asset', getattr(edit, 'part', 'group'))}"
         links = () if last is None else (Link(last),)
         tree = tree.with_node(Node(name, _OPERATION[type(edit)](seen, edit), links))
     return tree
@@ -79,4 +82,32 @@ def _group(scene: ga.Scene, edit: GroupEdit) -> Operation:
     return GroupPlacement(meshes=names, labels=tuple(ASSETS[name].label for name in names), group=group)
 
 
-_OPERATION = {Edit: _single, ArrayEdit: _array, ScatterEdit: _scatter, GroupEdit: _group}
+def _placement(scene: ga.Scene, edit: PlacementEdit) -> Operation:
+    part = PARTS[edit.part]
+    examples = []
+    for boxes, target in ((edit.wanted, 1.0), (edit.unwanted, 0.0)):
+        for facade, x0, y0, x1, y1 in boxes:
+            left, foot = scene.polygon(facade).bounds[:2]
+            drawn = ga.Rectangle(left + (x0 + x1) / 2, foot + (y0 + y1) / 2, x1 - x0, y1 - y0)
+            examples.append(ga.Example(scene, drawn, target))
+    operation = RectanglePlacement.learned(
+        examples,
+        ga.PlacementOptions(**edit.options),
+        fill=["repeat" in edit.fit and e.target > 0 for e in examples],
+        mesh=edit.part,
+        label=part.label,
+        size=part.size,
+        fit=edit.fit,
+        gap=edit.gap,
+        threshold=edit.threshold,
+    )
+    return replace(operation, max_per={} if edit.most is None else {operation.model.label: edit.most})
+
+
+_OPERATION = {
+    Edit: _single,
+    ArrayEdit: _array,
+    ScatterEdit: _scatter,
+    GroupEdit: _group,
+    PlacementEdit: _placement,
+}

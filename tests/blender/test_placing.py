@@ -483,3 +483,14 @@ def test_preferences_are_set_for_the_selection():
     made[0]["ga_target"] = 1.0
     place()
     assert [t.target for t in operation().model.lesson.taught] == [1.0, 0.25, 0.25]
+
+
+def test_walls_a_hands_breadth_apart_have_planes_of_their_own():
+    facades = []
+    for i, back in enumerate((0.0, 0.3, 0.1)):
+        where = frame("south", at=(10.0 * i, back, 0.0))
+        facades.append((where, wall(f"house {i}", where, 3, 2)))
+    made = examples(facades[0])
+    place()
+    # On its own wall, not on that of its neighbour.
+    sills_stand(facades, [*made, *results()])
