@@ -21,7 +21,7 @@ def test_tables_without_a_place_come_last():
 
 def test_every_benchmark_has_a_place_in_the_report():
     text = REPORT.read_text("utf-8")
-    assert {"poses_grid", "poses_growth", "poses_speed"} <= set(names())
+    assert {"poses_grid", "poses_growth", "poses_quality", "poses_speed"} <= set(names())
     for name in names():
         assert text.count(f"<!-- {name} -->") == text.count(f"<!-- /{name} -->") == 1
 

@@ -1,0 +1,70 @@
+"""What counts as right in the benchmark of real rooms, and that it runs on files of their form."""
+
+import json
+
+import numpy as np
+import pytest
+
+from benchmarks import poses_quality as quality
+
+ROOM = np.array([(0.0, 0), (4, 0), (4, 2), (0, 2)])
+
+
+def target(angle=0.0):
+    return quality.Target("r", ROOM, (1.0, 1.0, angle), 0.3)
+
+
+@pytest.mark.parametrize(
+    ("pose", "label", "right"),
+    [
+        ((1.0, 1.29, 0.0), "bed", True),
+        ((1.0, 1.31, 0.0), "bed", False),
+        ((1.0, 1.0, np.radians(14)), "bed", True),
+        ((1.0, 1.0, np.radians(16)), "bed", False),
+        ((1.0, 1.0, np.radians(361)), "bed", True),
+        ((1.0, 1.0, np.pi), "bed", False),
+        ((1.0, 1.0, np.pi), "desk", True),
+        ((1.0, 1.0, np.pi / 2), "desk", False),
+        ((1.0, 1.0, 2.0), "chair", True),
+    ],
+)
+def test_what_is_right(pose, label, right):
+    assert quality.is_right(pose, target(), label) == right
+
+
+def test_an_opening_lies_inside_its_room_whichever_way_it_is_drawn():
+    for segment in ([(1, 0), (2, 0)], [(2, 0), (1, 0)]):
+        door = quality.opening(segment, ROOM, "door", "d", "r")
+        assert door.bounds == pytest.approx([1, 0, 2, quality.DEPTH])
+    assert quality.opening([(1, 0), (1.01, 0)], ROOM, "door", "d", "r") is None
+
+
+def test_a_ring_in_its_own_frame_is_the_same_seen_from_there():
+    pose = (1.0, 2.0, 0.7)
+    ring = np.array([(2.0, 2), (3, 5), (0, 1)])
+    assert quality.ga.Pose(pose[:2], pose[2]).to_scene(quality.own_frame(ring, pose)) == pytest.approx(ring)
+
+
+def test_without_the_data_it_says_so(monkeypatch, capsys):
+    monkeypatch.delenv("GEOANALOGY_DATA", raising=False)
+    assert list(quality.tables()) == []
+    assert capsys.readouterr().out.startswith("GEOANALOGY_DATA names no folder with ifc_rooms")
+
+
+def plan(number, width):
+    room = {
+        "labels": ["restroom"],
+        "polygon": [[0, 0], [width, 0], [width, 150], [0, 150]],
+        "openings": [[[10, 0], [80, 0]]],
+        "furniture": [{"label": "toilet", "box": [width / 2 - 20, 90, width / 2 + 20, 150], "front_deg": 270}],
+    }
+    return {"id": f"p{number}", "scale_m_per_px": 0.01, "rooms": [room]}
+
+
+def test_fixtures_of_rooms_that_are_alike_are_found(tmp_path):
+    path = tmp_path / "plans.json"
+    path.write_text(json.dumps([plan(i, 90 + 5 * i) for i in range(quality.TARGETS + 2)]))
+    (case,) = quality.fixtures(path, 1)
+    outcomes, _ = quality.run(case)
+    assert len(outcomes) == quality.TARGETS
+    assert all(o.first and o.four and o.copy for o in outcomes)
