@@ -8,9 +8,12 @@ the tree that replays edits.
 from .errors import Cancelled, InputError
 from .formats.files import read_drawing, read_scene, write_scene
 from .geometry.drawing import Drawing
+from .geometry.mesh import Mesh
 from .geometry.polygon import Polygon
 from .geometry.rectangle import Rectangle
 from .geometry.scene import Scene
+from .geometry.surface import Surface
+from .operations.applied import Applied
 from .operations.element import Element
 from .operations.tree import OperationsTree
 from .placements.examples import Example
@@ -24,12 +27,14 @@ from .regions.matching import Matches, RegionMatch, match_regions
 from .regions.options import RegionOptions
 
 __all__ = [
+    "Applied",
     "Cancelled",
     "Drawing",
     "Element",
     "Example",
     "InputError",
     "Matches",
+    "Mesh",
     "OperationsTree",
     "Placement",
     "PlacementModel",
@@ -44,6 +49,7 @@ __all__ = [
     "RegionMatch",
     "RegionOptions",
     "Scene",
+    "Surface",
     "learn_placement",
     "learn_pose",
     "match_regions",

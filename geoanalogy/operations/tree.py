@@ -3,7 +3,7 @@
 import heapq
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -183,14 +183,20 @@ class OperationsTree:
         scene.memory.settle()
         return Applied(layout, self.evaluations.hit_rate, library)
 
-    def layout(self, scene: Scene, node: str | None = None, seed: int = 0, progress: Progress | None = None) -> Layout:
+    def layout(
+        self,
+        scene: Scene,
+        node: str | Sequence[Link] | None = None,
+        seed: int = 0,
+        progress: Progress | None = None,
+    ) -> Layout:
         """What flows out of a node: the layout that the next operation after it sees.
 
         Parameters
         ----------
         scene : Scene
-        node : str, optional
-            Its first output; None: what all leaves have placed.
+        node : str or sequence of Link, optional
+            Its first output, or what several outputs give together; None: what has been placed in the end.
         seed : int
         progress : callable (fraction, text) -> bool, optional
             Returning False cancels.
@@ -208,13 +214,13 @@ class OperationsTree:
         """
         return run(self.layout_steps(scene, node, seed), progress)
 
-    def layout_steps(self, scene: Scene, node: str | None = None, seed: int = 0) -> Stepper[Layout]:
+    def layout_steps(self, scene: Scene, node: str | Sequence[Link] | None = None, seed: int = 0) -> Stepper[Layout]:
         """The stepper behind `layout`.
 
         Parameters
         ----------
         scene : Scene
-        node : str, optional
+        node : str or sequence of Link, optional
         seed : int
 
         Returns
@@ -223,20 +229,25 @@ class OperationsTree:
             Returns the layout.
         """
         rank = {n.id: i for i, n in enumerate(self.nodes)}
-        wanted = self._upstream(self.leaves if node is None else (self.node(node).id,))
+        links = [Link(node)] if isinstance(node, str) else self._open() if node is None else list(node)
+        wanted = self._upstream(self.node(link.node).id for link in links)
         needed = [n for n in self.nodes if n.id in wanted]
         outputs: dict[str, tuple[Layout, ...]] = {}
+
+        def joined(links: Iterable[Link]) -> Layout:
+            sources = sorted(set(links), key=lambda k: (rank[k.node], k.output))
+            return merge(scene, [outputs[k.node][k.output] for k in sources] or [Layout(scene)], rank)
+
         for i, current in enumerate(needed):
             yield i / len(needed), current.id
-            links = sorted(set(current.inputs), key=lambda k: (rank[k.node], k.output))
-            incoming = [outputs[k.node][k.output] for k in links] or [Layout(scene)]
-            step = self.evaluations.steps(current, merge(scene, incoming, rank), seed)
+            step = self.evaluations.steps(current, joined(current.inputs), seed)
             outputs[current.id] = yield from within(step, i / len(needed), (i + 1) / len(needed))
-        if node is not None:
-            return outputs[node][0]
+        return joined(links)
+
+    def _open(self) -> list[Link]:
+        """The outputs that no node takes its input from."""
         used = {link for n in self.nodes for link in n.inputs}
-        last = [outputs[n.id][k] for n in self.nodes for k in range(n.operation.outputs) if Link(n.id, k) not in used]
-        return merge(scene, last or [Layout(scene)], rank)
+        return [link for n in self.nodes for k in range(n.operation.outputs) if (link := Link(n.id, k)) not in used]
 
     def _upstream(self, ids: Iterable[str]) -> set[str]:
         found: set[str] = set()

@@ -1,0 +1,142 @@
+"""The condominium: three to five storeys under a mansard or a flat roof, with balconies and a base."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from geoanalogy.geometry.roof import Roof
+
+from .parts import GARDEN, SIDE, STREET, bars, over, windows
+from .recorder import Box, Recorder, Sheet
+
+PLOT = "condominium"
+
+
+def body(s: Sheet) -> Sequence[Box]:
+    x0, y0, x1, _ = s.edges
+    return [(x0 + 3, y0 + 4, x1 - 3, y0 + 16)]
+
+
+def wing(s: Sheet) -> Sequence[Box]:
+    return [(x1 - 10, y1 - 1.0, x1, y1 + 6) for _, _, x1, y1 in s.boxes("block")]
+
+
+def risalit(s: Sheet) -> Sequence[Box]:
+    return [((x0 + x1) / 2 - 3, y0 - 1.2, (x0 + x1) / 2 + 3, y0 + 1.0) for x0, y0, x1, _ in s.boxes("block")]
+
+
+def base(s: Sheet) -> Sequence[Box]:
+    x0, y0, x1, _ = s.edges
+    return [(x0, y0, x1, y0 + 0.6)] if s.width > 4 else []
+
+
+def cornice(s: Sheet) -> Sequence[Box]:
+    x0, _, x1, y1 = s.edges
+    return [(x0, y1 - 0.3, x1, y1)] if s.width > 4 else []
+
+
+def entrance(s: Sheet) -> Sequence[Box]:
+    x0, y0, x1, _ = s.edges
+    return [((x0 + x1) / 2 - 1.0, y0, (x0 + x1) / 2 + 1.0, y0 + 2.4)]
+
+
+def street_windows(s: Sheet) -> Sequence[Box]:
+    x0, y0, x1, y1 = s.edges
+    return [(x0 + 1.2, y0 + 1.2, x1 - 1.2, y1 - 1.0)] if s.width > 4 else []
+
+
+def stair_windows(s: Sheet) -> Sequence[Box]:
+    x0, _, x1, y1 = s.edges
+    return [((x0 + x1) / 2 - 0.8, d[3] + 1.2, (x0 + x1) / 2 + 0.8, y1 - 1.0) for d in s.boxes("entrance")]
+
+
+def side_windows(s: Sheet) -> Sequence[Box]:
+    x0, y0, x1, y1 = s.edges
+    return [(x0 + 1.8, y0 + 1.2, x1 - 1.8, y1 - 1.0)] if s.width > 8 else []
+
+
+def loggias(s: Sheet) -> Sequence[Box]:
+    x0, y0, x1, y1 = s.edges
+    return [(x0 + 1.0, y0 + 0.9, x1 - 1.0, y1 - 0.8)] if s.width > 8 else []
+
+
+def slab(s: Sheet) -> Sequence[Box]:
+    return [(x0 - 0.3, y0 - 0.2, x1 + 0.3, y0) for x0, y0, x1, _ in s.boxes("loggia")]
+
+
+def attic(s: Sheet) -> Sequence[Box]:
+    x0, y0, x1, y1 = s.edges
+    return [(x0 + 1.5, y0 + 1.5, x1 - 1.5, y1 - 1.5)] if s.height > 10 else []
+
+
+def plant(s: Sheet) -> Sequence[Box]:
+    x0, y0, x1, y1 = s.edges
+    return (
+        [((x0 + x1) / 2 - 1.5, (y0 + y1) / 2 - 1.2, (x0 + x1) / 2 + 1.5, (y0 + y1) / 2 + 1.2)] if s.height > 6 else []
+    )
+
+
+def parking(s: Sheet) -> Sequence[Box]:
+    x0, _, x1, y1 = s.edges
+    return [(x0 + 1, y1 - 5.5, x1 - 1, y1 - 0.5)]
+
+
+def hedge(s: Sheet) -> Sequence[Box]:
+    x0, y0, x1, _ = s.edges
+    return [(x0 + 0.3, y0 + 0.3, (x0 + x1) / 2 - 2.0, y0 + 1.0), ((x0 + x1) / 2 + 2.0, y0 + 0.3, x1 - 0.3, y0 + 1.0)]
+
+
+def walk(s: Sheet) -> Sequence[Box]:
+    _, y0, _, _ = s.edges
+    return [((b[0] + b[2]) / 2 - 1.2, y0, (b[0] + b[2]) / 2 + 1.2, b[1]) for b in s.boxes("stairs")]
+
+
+def record(r: Recorder) -> None:
+    """Record the operations on the plots of the recorder's scene."""
+    steep = Roof("mansard", float(np.radians(15.0)), float(np.radians(68.0)), 2.4)
+    r.place("block", PLOT, body, 5, max_per={PLOT: 1})
+    r.place("stairs", PLOT, risalit, 5, max_per={PLOT: 1})
+    old, new = r.select(PLOT, (1.0, 1.0))
+    r.at = (old,)
+    r.extrude("block", 12.4, (0.77, 1.23), roof=steep, side="wall")
+    mansards = r.at
+    r.at = (new,)
+    r.place("wing", PLOT, wing, 5, max_per={PLOT: 1})
+    r.extrude("block", 12.4, (0.77, 1.23), side="wall", top="terrace")
+    r.extrude("wing", 9.3, (0.7, 1.0), side="wall", top="terrace")
+    r.at = (*mansards, *r.at)
+    r.extrude("stairs", 8.9, side="stair wall", top="porch roof")
+    r.merge("block", "siblings")
+
+    front = "street stair wall"
+    r.place("entrance", front, entrance, 5, max_per={front: 1})
+    r.recess("entrance", 0.5, "entrance door")
+    r.place("canopy", front, over("entrance", 0.5, 0.1, 0.3), 5, max_per={front: 1})
+    r.attach("canopy", 1.2)
+    windows(r, "stair window", front, stair_windows, (1.6, 1.5), (1.0, 1.5))
+    windows(r, "window", STREET, street_windows, (1.5, 1.6), (1.3, 1.5))
+    bars(r, "window glass")
+    r.place("base", STREET, base, 6, max_per={STREET: 1})
+    r.attach("base", 0.08)
+
+    windows(r, "side window", SIDE, side_windows, (1.1, 1.6), (2.4, 1.5))
+    r.place(
+        "loggia", GARDEN, loggias, 5, size=(2.6, 2.3), gap=(0.9, 0.8), fit=("repeat", "repeat"), max_per={GARDEN: 1}
+    )
+    r.recess("loggia", 1.2, "loggia glass")
+    r.place("balcony", GARDEN, slab, 6)
+    r.attach("balcony", 0.9)
+
+    r.place("attic", "terrace", attic, 4, max_per={"terrace": 1})
+    r.extrude("attic", 2.6, side="attic wall", top="attic roof")
+    r.merge("attic")
+    r.place("plant", "attic roof", plant, 4, max_per={"attic roof": 1})
+    r.attach("plant", 1.1)
+    r.place("parking", PLOT, parking, 5, max_per={PLOT: 1})
+    r.extrude("parking", 0.06)
+    r.place("hedge", PLOT, hedge, 6, max_per={PLOT: 2})
+    r.extrude("hedge", 0.9, (0.8, 1.3))
+    r.place("walk", PLOT, walk, 5, max_per={PLOT: 1})
+    r.extrude("walk", 0.05)
