@@ -17,11 +17,12 @@ class NearestOfOne(Nearest):
 
     Attributes
     ----------
-    way : ndarray of shape (n, 1), complex
-        Direction from the place to the point, of length 1; to the interior's side where they coincide.
+    x, y : ndarray of shape (n,)
+        The way from the place to the point, scene units.
     """
 
-    way: Directions
+    x: Array
+    y: Array
 
 
 class Sighting(Observation):
@@ -67,11 +68,7 @@ class Sighting(Observation):
             ux, uy = ux[edge], uy[edge]
         between = (along > 0) & (along < e.edge_length[edge])
         tangent = e.edge_heading[edge]
-        close = ZERO_LENGTH * e.edge_length[edge]
-        left = ux * y - uy * x >= -close
-        touching = distance <= close
-        away = np.where(touching, 1.0, distance)
-        way = (np.where(touching, -uy, x) + 1j * np.where(touching, ux, y)) / away
+        left = ux * y - uy * x >= -ZERO_LENGTH * e.edge_length[edge]
         if ends is not None:
             end = (along > 0).astype(np.intp)
             row = np.flatnonzero(~between & (distance > 0) & ~ends[edge, end])
@@ -87,7 +84,8 @@ class Sighting(Observation):
             between=between[:, None],
             edge=edge[:, None],
             left=left[:, None],
-            way=way[:, None],
+            x=x,
+            y=y,
         )
 
     @cached_property
@@ -117,9 +115,17 @@ class Sighting(Observation):
         Returns
         -------
         ndarray of shape (n, 1), complex
+            Of length 1. Where a point lies on the boundary, to the interior's side.
         """
         assert isinstance(nearest, NearestOfOne)
-        return nearest.way
+        edge, distance = nearest.edge[:, 0], nearest.distance[:, 0]
+        direction = self.elements.edge_direction[edge]
+        touching = distance <= ZERO_LENGTH * self.elements.edge_length[edge]
+        away = np.where(touching, 1.0, distance)
+        way = np.empty(len(away), dtype=np.complex128)
+        way.real = np.where(touching, -direction.imag, nearest.x) / away
+        way.imag = np.where(touching, direction.real, nearest.y) / away
+        return way[:, None]
 
     def along(self, nearest: Nearest) -> Directions:
         """Direction of the boundary at nearest places.
