@@ -16,7 +16,7 @@ import numpy as np
 RUNS = 5
 
 #: Seconds after which a median is taken of the runs there are: all benchmarks together take minutes.
-ENOUGH = 4.0
+ENOUGH = 3.0
 
 
 @dataclass(frozen=True)

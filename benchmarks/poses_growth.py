@@ -15,7 +15,7 @@ from .poses_speed import fresh
 ROOMS = (10, 30, 100, 300, 1_000, 3_000, 10_000)
 CELLS_PER_ROOM = 1_000
 #: A number of rooms is left out where, at the rate of the one before, it would take longer than this: seconds.
-LONGEST = 60.0
+LONGEST = 40.0
 #: Tracing memory makes a run slower; it is left out where the run itself takes longer than this: seconds.
 LONGEST_TRACED = 6.0
 #: Cells of the naive grid times polygons that it is run with; where there are more, on a part of the cells.
@@ -61,6 +61,24 @@ def naive_seconds(scene: ga.Scene) -> float:
     return seconds(lambda: accumulate(model, scene, part), 3) * len(whole.points) / len(part.points)
 
 
+def measured(count: int, full: bool) -> tuple[float, tuple[object, ...]]:
+    """Seconds of a propagation into so many rooms, and the row of the table."""
+    scene = bedrooms(count)
+    model = bed_in(scene)
+    bare: list[ga.Scene] = []
+    found: list[ga.PoseResults] = []
+
+    def forget() -> None:
+        bare[:] = [fresh(scene)]
+
+    taken = seconds(lambda: found.append(model.place(bare[0])), 3, forget)
+    traced = full or taken <= LONGEST_TRACED
+    memory = f"{peak_megabytes(lambda: model.place(fresh(scene))):.3g} MB" if traced else "not traced"
+    naive = naive_seconds(scene)
+    ours = (count, duration(taken), duration(taken / count), memory, len(found[-1]))
+    return taken, (*ours, duration(naive), times(naive, taken))
+
+
 def tables(full: bool = False) -> Iterator[Table]:
     """The table of this benchmark; `full` measures all numbers of rooms, however long they take."""
     rows: list[tuple[object, ...]] = []
@@ -70,16 +88,9 @@ def tables(full: bool = False) -> Iterator[Table]:
         if rate * count > LONGEST and not full:
             left_out.append(f"{count:,}".replace(",", " "))
             continue
-        scene = bedrooms(count)
-        model = bed_in(scene)
-        bare: list[ga.Scene] = []
-        taken = seconds(lambda m=model, b=bare: m.place(b[-1]), 3, lambda s=scene, b=bare: b.append(fresh(s)))
-        found = len(model.place(bare[-1]))
+        taken, row = measured(count, full)
         rate = taken / count
-        traced = full or taken <= LONGEST_TRACED
-        memory = f"{peak_megabytes(lambda m=model, s=scene: m.place(fresh(s))):.3g} MB" if traced else "not traced"
-        naive = naive_seconds(scene)
-        rows.append((count, duration(taken), duration(rate), memory, found, duration(naive), times(naive, taken)))
+        rows.append(row)
     note = (
         f"A bed into bedrooms of different sizes with door, window and wardrobe, {CELLS_PER_ROOM} cells a room, nothing"
         " derived before, at most 3 runs. The naive method has as many cells and a point for an example; it is run on a"

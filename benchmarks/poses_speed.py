@@ -42,8 +42,9 @@ def first_and_again(model: ga.PoseModel, scene: ga.Scene) -> tuple[float, float,
         bare.append((ga.PoseModel.from_dict(model.to_dict()), fresh(scene)))
 
     first = seconds(lambda: bare[-1][0].place(bare[-1][1]), prepare=forget)
-    found = len(model.place(scene))
-    return first, seconds(lambda: model.place(scene)), found
+    known, there = bare[-1]
+    found = len(known.place(there))
+    return first, seconds(lambda: known.place(there)), found
 
 
 def stages(tree: ga.OperationsTree, scene: ga.Scene) -> Iterator[tuple[str, ga.PoseModel, ga.Scene]]:
