@@ -13,7 +13,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
-SCENES = ("apartment", "garden", "crowns")
+SCENES = ("apartment", "garden", "crowns", "street")
 
 
 def rebuild(scene: str) -> None:

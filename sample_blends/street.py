@@ -74,9 +74,9 @@ def build(scene: bpy.types.Scene) -> np.ndarray:
         add_solid(name, solid, holder)
     stage.light(scene)
     stage.ground(scene, corners, "granite", z=-KERB)
-    front, roofs = corners * (1.0, 1.0, 0.0) - np.array((0.0, PAVEMENT, 0.0)), corners + np.array((0.0, 2.0, 2.0))
+    front, roofs = corners * (1.0, 1.0, 0.0) - np.array((0.0, PAVEMENT, 0.0)), corners + np.array((0.0, 1.0, 2.0))
     return np.vstack((corners, front, roofs))
 
 
 if __name__ == "__main__":
-    building.run(build, __doc__, EDITS, elevation=17.0, turn=-96.0, lens=58.0, margin=0.02)
+    building.run(build, __doc__, EDITS, elevation=9.0, turn=-91.0, lens=40.0, margin=0.01)

@@ -19,7 +19,7 @@ from ..placements.model import Placement, PlacementModel, learn_placement
 from ..placements.options import PlacementOptions
 from ..poses.pose import Pose
 from ..progress import Stepper
-from ..tolerances import SAME_POLYGON
+from ..tolerances import CONTAINED_SHARE, SAME_POLYGON
 from .element import Element
 from .keys import key_of
 from .layout import Layout
@@ -196,7 +196,8 @@ class RectanglePlacement(PlacingOne):
             elif target > 0:
                 shown += self._elements([rectangle], Placement(rectangle, target, parent, 0.0), node, example=True)
         for p in sorted(results, key=lambda p: -p.score):
-            shown += self._elements(element_array(p.rectangle, self.size, self.fit, self.gap), p, node)
+            filling = element_array(p.rectangle, self.size, self.fit, self.gap)
+            shown += self._elements(_within(filling, p.parent), p, node)
         return with_distinct_keys(shown)
 
     def _is_drawn(self, placement: Placement, drawn: Sequence[tuple[Rectangle, float, Polygon, bool]]) -> bool:
@@ -260,6 +261,15 @@ class RectanglePlacement(PlacingOne):
                     read.add(member.id)
                     waiting.append(member)
         return [p for p in scene.polygons if p.id in read]
+
+
+def _within(rectangles: Sequence[Rectangle], parent: Polygon) -> Sequence[Rectangle]:
+    """Those of the objects of an array that lie in a parent of any shape; a single one stays where it was found."""
+    if len(rectangles) < 2:
+        return rectangles
+    shapes = shapely.polygons([r.ring for r in rectangles])
+    held = shapely.area(shapely.intersection(shapes, parent.shape)) / shapely.area(shapes)
+    return [r for r, share in zip(rectangles, held, strict=True) if share >= CONTAINED_SHARE]
 
 
 def _each_once(placements: Sequence[Placement]) -> list[Placement]:

@@ -112,9 +112,9 @@ class PlacementEdit:
     ----------
     part : str
         Name in the library of facades.
-    wanted, unwanted : tuple of FacadeBox
-        Examples of where it belongs, and of where it does not. Where the part is repeated, they are drawn and it stands
-        aside; else it stands in each.
+    wanted : tuple of FacadeBox
+        Examples of where it belongs. Where the part is repeated, they are drawn and it stands aside; else it stands in
+        each.
     fit : (str, str)
         "scale" or "repeat", along and across.
     gap : (float, float)
@@ -128,7 +128,6 @@ class PlacementEdit:
 
     part: str
     wanted: tuple[FacadeBox, ...]
-    unwanted: tuple[FacadeBox, ...] = ()
     fit: tuple[str, str] = ("scale", "scale")
     gap: tuple[float, float] = (0.0, 0.0)
     threshold: float = 0.5

@@ -90,17 +90,15 @@ def _placement(context, edit: PlacementEdit, holder, height, number):
     element, wanted = None, []
     if "repeat" in edit.fit:
         element = _part(part, Matrix.Translation((0.0, 0.0, ASIDE)), aside(context.scene))
-        context.scene.geoanalogy.rectangle_label = part.label
-    for boxes, target in ((edit.wanted, 1.0), (edit.unwanted, 0.0)):
-        for facade, x0, y0, x1, y1 in boxes:
-            where = context.scene.objects[facade].matrix_world
-            if element is not None or not target:
-                ends = (tuple(where @ Vector((x, y, 0.0))) for x, y in ((x0, y0), (x1, y1)))
-                wanted += add_rectangles(context, [(*ends, target)], part.label)
-            else:
-                item = _part(part, where @ Matrix.Translation(((x0 + x1) / 2, (y0 + y1) / 2, 0.0)) @ UPRIGHT, holder)
-                item.scale = ((x1 - x0) / part.size[0], 1.0, (y1 - y0) / part.size[1])
-                wanted.append(item)
+    for facade, x0, y0, x1, y1 in edit.wanted:
+        where = context.scene.objects[facade].matrix_world
+        if element is not None:
+            ends = (tuple(where @ Vector((x, y, 0.0))) for x, y in ((x0, y0), (x1, y1)))
+            wanted += add_rectangles(context, [(*ends, 1.0)], part.label)
+        else:
+            item = _part(part, where @ Matrix.Translation(((x0 + x1) / 2, (y0 + y1) / 2, 0.0)) @ UPRIGHT, holder)
+            item.scale = ((x1 - x0) / part.size[0], 1.0, (y1 - y0) / part.size[1])
+            wanted.append(item)
     return placement_steps(
         context,
         wanted,

@@ -85,15 +85,14 @@ def _group(scene: ga.Scene, edit: GroupEdit) -> Operation:
 def _placement(scene: ga.Scene, edit: PlacementEdit) -> Operation:
     part = PARTS[edit.part]
     examples = []
-    for boxes, target in ((edit.wanted, 1.0), (edit.unwanted, 0.0)):
-        for facade, x0, y0, x1, y1 in boxes:
-            left, foot = scene.polygon(facade).bounds[:2]
-            drawn = ga.Rectangle(left + (x0 + x1) / 2, foot + (y0 + y1) / 2, x1 - x0, y1 - y0)
-            examples.append(ga.Example(scene, drawn, target))
+    for facade, x0, y0, x1, y1 in edit.wanted:
+        left, foot = scene.polygon(facade).bounds[:2]
+        drawn = ga.Rectangle(left + (x0 + x1) / 2, foot + (y0 + y1) / 2, x1 - x0, y1 - y0)
+        examples.append(ga.Example(scene, drawn))
     operation = RectanglePlacement.learned(
         examples,
         ga.PlacementOptions(**edit.options),
-        fill=["repeat" in edit.fit and e.target > 0 for e in examples],
+        fill=["repeat" in edit.fit] * len(examples),
         mesh=edit.part,
         label=part.label,
         size=part.size,

@@ -13,7 +13,9 @@ from .edit import FacadeBox, PlacementEdit
 #: The houses on which examples are given: the narrowest and the widest, the lowest and the highest.
 SHOWN = ("house 1", "house 2")
 #: What spans a facade may be of any size.
-SPANNING = {"aspect_tolerance": inf, "area_tolerance": inf}
+SPANNING = {"aspect_tolerance": inf, "area_tolerance": inf, "tau": 0.5}
+#: What belongs to one other part keeps exactly to it.
+EXACT = {"tau": 0.2}
 #: Windows of a floor: their distance from the ends, and from the floor's foot; and from each other at least.
 MARGIN, SILL_HEIGHT, GAP = 0.95, 0.95, 1.3
 WINDOW = (1.1, 1.7)
@@ -70,7 +72,6 @@ def _shop_middle(id: str, i: int) -> float:
 
 _WINDOWS = (("house 1", 0, 0), ("house 1", 1, 1), ("house 2", 0, 1), ("house 2", 2, 3), ("house 2", 3, 0))
 _SHOPS = (("house 1", 0), ("house 2", 0), ("house 2", 2), ("house 2", 3))
-_FIRST_FLOOR = (("house 1", 0, 0), ("house 1", 0, 1), ("house 2", 0, 1), ("house 2", 0, 3), ("house 2", 0, 0))
 
 EDITS = [
     PlacementEdit("ground floor", _across(0.0, GROUND_FLOOR), most=1, options=SPANNING),
@@ -84,7 +85,7 @@ EDITS = [
         most=1,
         options=SPANNING,
     ),
-    PlacementEdit("sill", _about(_WINDOWS, 0.7, -1.0, -0.85), threshold=0.7),
+    PlacementEdit("sill", _about(_WINDOWS, 0.7, -1.0, -0.85), threshold=0.7, options=EXACT),
     # Both shutters of a window are one row of two, flush with its ends.
     PlacementEdit(
         "shutter", _about(_WINDOWS, 1.08, -0.85, 0.85), fit=("repeat", "scale"), gap=(1.0, 0.0), threshold=0.7
@@ -102,12 +103,16 @@ EDITS = [
         "awning",
         tuple((id, _shop_middle(id, i) - 0.95, 2.5, _shop_middle(id, i) + 0.95, 3.0) for id, i in _SHOPS),
         threshold=0.7,
+        options=EXACT,
     ),
+    # Wider than the windows of the row above by as much as they are less far apart: each is below one.
     PlacementEdit(
         "balcony",
-        _about(_FIRST_FLOOR, 0.95, -SILL_HEIGHT - 0.95, -1.02),
-        unwanted=_about((("house 2", 2, 1), ("house 1", 1, 0)), 0.95, -SILL_HEIGHT - 0.95, -1.02),
-        threshold=0.7,
+        _across(GROUND_FLOOR - 0.1, GROUND_FLOOR + 0.78, MARGIN - 0.4, MARGIN - 0.4),
+        fit=("repeat", "scale"),
+        gap=(GAP - 0.8, 0.0),
+        most=1,
+        options=SPANNING,
     ),
     PlacementEdit("lamp", tuple((id, 2.24, 1.75, 2.5, 2.25) for id in SHOWN), most=1),
 ]

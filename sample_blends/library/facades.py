@@ -158,8 +158,8 @@ def door(width: float, height: float) -> list[Solid]:
     parts.append(_slab(-x, x, -z, -z + 0.12, 0.3, "granite", 0.01))
     parts.append(_slab(-x, x, -z + 0.12, z - 0.62, 0.09, "door green"))
     parts.append(_slab(-x, x, z - 0.62, z - 0.56, 0.11, "door green"))
-    parts.append(_slab(-x, x, z - 0.56, z - 0.18, 0.05, "pane"))
-    parts.append(_slab(-0.02, 0.02, z - 0.56, z - 0.18, 0.08, "door green"))
+    parts.append(_slab(-x, x, z - 0.56, z - 0.18, 0.08, "pane"))
+    parts.append(_slab(-0.02, 0.02, z - 0.56, z - 0.18, 0.11, "door green"))
     for low, high in ((-z + 0.25, -z + 0.85), (-z + 1.0, z - 0.75)):
         for x0, x1 in ((-x + 0.08, -0.05), (0.05, x - 0.08)):
             parts.append(_slab(x0, x1, low, high, 0.12, "door green", 0.02))
@@ -176,10 +176,10 @@ def shop_window(width: float, height: float) -> list[Solid]:
     parts.append(_slab(-x + 0.09, x - 0.09, -z + 0.09, riser, 0.08, "door green"))
     parts.append(_slab(-x + 0.2, x - 0.2, -z + 0.17, riser - 0.08, 0.12, "door green", 0.02))
     parts.append(_slab(-x, x, riser, riser + 0.07, 0.2, "dark lacquer", 0.01))
-    parts.append(_slab(-x + 0.09, x - 0.09, riser + 0.07, z - 0.09, 0.05, "shop pane"))
+    parts.append(_slab(-x + 0.09, x - 0.09, riser + 0.07, z - 0.09, 0.1, "shop pane"))
     for at in (-x / 3, x / 3):
-        parts.append(_slab(at - 0.02, at + 0.02, z - 0.45, z - 0.09, 0.12, "dark lacquer"))
-    parts.append(_slab(-x, x, z - 0.47, z - 0.42, 0.12, "dark lacquer"))
+        parts.append(_slab(at - 0.02, at + 0.02, z - 0.45, z - 0.09, 0.14, "dark lacquer"))
+    parts.append(_slab(-x, x, z - 0.47, z - 0.42, 0.14, "dark lacquer"))
     return parts
 
 

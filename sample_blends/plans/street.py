@@ -54,7 +54,7 @@ HOUSES = (
     House("house 5", 11.8, 2, "plaster blue", "roof slate", 0.0, 0.4),
     House("house 6", 8.8, 4, "plaster brick", "tile brown", -16.0, 0.2),
     House("house 7", 10.8, 3, "plaster grey", "tile red", -16.0, -0.3),
-    House("house 8", 12.6, 2, "plaster ochre", "roof slate", -30.0),
+    House("house 8", 12.2, 2, "plaster ochre", "roof slate", -30.0),
 )
 
 
