@@ -80,7 +80,7 @@ def is_right(pose: Sequence[float], target: Target, label: str) -> bool:
     if any(name in label for name in ANY_WAY):
         return True
     senses = 2 if any(name in label for name in BOTH_WAYS) else 1
-    return abs(np.angle(np.exp(1j * senses * (pose[2] - target.truth[2])))) / senses <= TURN
+    return bool(abs(np.angle(np.exp(1j * senses * (pose[2] - target.truth[2])))) / senses <= TURN)
 
 
 def copied(case: Case, target: Target) -> tuple[float, float, float]:

@@ -61,10 +61,14 @@ def plan(number, width):
     return {"id": f"p{number}", "scale_m_per_px": 0.01, "rooms": [room]}
 
 
-def test_fixtures_of_rooms_that_are_alike_are_found(tmp_path):
-    path = tmp_path / "plans.json"
-    path.write_text(json.dumps([plan(i, 90 + 5 * i) for i in range(quality.TARGETS + 2)]))
-    (case,) = quality.fixtures(path, 1)
-    outcomes, _ = quality.run(case)
-    assert len(outcomes) == quality.TARGETS
-    assert all(o.first and o.four and o.copy for o in outcomes)
+def test_fixtures_of_rooms_that_are_alike_are_found(tmp_path, monkeypatch):
+    plans = tmp_path / "r2v_floorplans" / "dev" / "plans.json"
+    plans.parent.mkdir(parents=True)
+    plans.write_text(json.dumps([plan(i, 90 + 5 * i) for i in range(quality.TARGETS + 2)]))
+    (tmp_path / "ifc_rooms" / "dev").mkdir(parents=True)
+    monkeypatch.setenv("GEOANALOGY_DATA", str(tmp_path))
+    monkeypatch.setattr(quality, "flats", lambda folder: iter(()))
+    monkeypatch.setattr(quality, "offices", lambda folder, sources: iter(()))
+    (table,) = quality.tables()
+    (row,) = table.rows
+    assert row[:6] == ("toilet", 1, quality.TARGETS, "1.00", "1.00", "1.00")
