@@ -45,7 +45,7 @@ def combined(first: Solid, others: Sequence[tuple[Solid, Frame]], kind: Kind, pl
     InputError
         Where a solid is not closed, and where nothing is left.
     """
-    square = bool((np.abs(plane.axes - np.round(plane.axes)) < PARALLEL_AXES).all())
+    square = is_square(plane)
     if square:  # the grid is that of the solid itself, which then need not be built anew each time
         plane = SPACE
     faces = list(first.faces)
@@ -78,6 +78,20 @@ def combined(first: Solid, others: Sequence[tuple[Solid, Frame]], kind: Kind, pl
     if square:
         _known[made] = result
     return made
+
+
+def is_square(plane: Frame) -> bool:
+    """Whether the axes of a frame are parallel to those of the coordinates that it is given in.
+
+    Parameters
+    ----------
+    plane : Frame
+
+    Returns
+    -------
+    bool
+    """
+    return bool((np.abs(plane.axes - np.round(plane.axes)) < PARALLEL_AXES).all())
 
 
 #: What solids were made from: building it anew takes longer than a boolean.

@@ -242,25 +242,24 @@ class Solid:
         uv = np.einsum("kcs,kas->kca", corners, axes)
         return Mesh(self.vertices, self.triangles, uv, materials, index[self.face])
 
-    def with_domains(self) -> "Solid":
-        """The solid, whose surfaces keep the outlines that they have now, whatever is cut out of them or added.
+    def with_domain(self, face: int) -> "Solid":
+        """The solid, one surface of which keeps the outline that it has now, whatever is cut out of it or added.
+
+        Parameters
+        ----------
+        face : int
 
         Returns
         -------
         Solid
         """
-        faces = list(self.faces)
-        for indices in self.by_label.values():
-            for i in indices:
-                if faces[i].domain is None:
-                    parts = self.shapes(i)
-                    if len(parts) == 1:
-                        plain = shapely.simplify(parts[0], SURFACE_GRID)
-                        rings = (plain.exterior, *plain.interiors)
-                        faces[i] = replace(
-                            faces[i], domain=tuple(tuple(map(tuple, shapely.get_coordinates(r)[:-1])) for r in rings)
-                        )
-        return replace(self, faces=tuple(faces))
+        parts = self.shapes(face) if self.faces[face].domain is None else []
+        if len(parts) != 1:
+            return self
+        plain = shapely.simplify(parts[0], SURFACE_GRID)
+        rings = (shapely.get_coordinates(ring)[:-1].tolist() for ring in (plain.exterior, *plain.interiors))
+        kept = replace(self.faces[face], domain=tuple(tuple((u, v) for u, v in ring) for ring in rings))
+        return replace(self, faces=(*self.faces[:face], kept, *self.faces[face + 1 :]))
 
     def renamed(self, prefix: str) -> "Solid":
         """The solid with a prefix before the names of its faces."""

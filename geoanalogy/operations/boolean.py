@@ -1,6 +1,5 @@
 """Boolean operations: solids are merged with or subtracted from what they stand on or beside (section 5.6)."""
 
-from collections import defaultdict
 from collections.abc import Hashable
 from dataclasses import dataclass, field
 from typing import Literal
@@ -42,21 +41,21 @@ class Boolean(Operation):
 
     def propose(self, layout: Layout, node: str, seed: int) -> Stepper[tuple[tuple[Element, ...], tuple[str, ...]]]:
         """The changed elements, and what could not be combined."""
-        work = self._by_sibling(layout, node) if self.target == "siblings" else self._by_surface(layout, node)
+        work = self._by_sibling(layout) if self.target == "siblings" else self._by_surface(layout)
         made: dict[str, Element] = {}
         problems = []
-        for i, (whole, parts, face) in enumerate(work):
+        for i, (whole, groups) in enumerate(work):
             if i % 16 == 0:
                 yield i / len(work), f"combining {self.label} {i + 1} of {len(work)}"
             element = made.get(whole.id, whole)
+            parts = [e for group in groups.values() for e in group]
             try:
                 assert element.base is not None
-                change = Change(node, self.kind, face, tuple(_standing(e, element) for e in parts))
-                changes = (*element.changes, change)
+                standing = tuple((face, tuple(_standing(e, element) for e in group)) for face, group in groups.items())
+                changes = (*element.changes, Change(node, self.kind, standing))
                 solid = changed(element.base, changes, layout.ground.memory)
-            except (InputError, KeyError) as error:
-                reason = error if isinstance(error, InputError) else "its surface is no longer there"
-                problems.append(f"node {node!r}: {self.label} {parts[0].id!r} is left as it is: {reason}")
+            except InputError as error:
+                problems.append(f"node {node!r}: {self.label} {parts[0].id!r} is left as it is: {error}")
                 continue
             made[whole.id] = element.changed(changes=changes, solid=solid)
             for e in parts:
@@ -66,15 +65,17 @@ class Boolean(Operation):
     def _solids(self, layout: Layout) -> list[Element]:
         return [e for e in layout.visible if e.label == self.label and e.solid is not None and not e.absorbed_by]
 
-    def _by_surface(self, layout: Layout, node: str) -> list[tuple[Element, list[Element], str]]:
-        found: defaultdict[tuple[str, str], list[Element]] = defaultdict(list)
+    def _by_surface(self, layout: Layout) -> list[tuple[Element, dict[str, list[Element]]]]:
+        """The solids that elements of the label stand on, and these by the name of the face."""
+        found: dict[str, dict[str, list[Element]]] = {}
         for e in self._solids(layout):
             there = layout.standing_on(e)
             if there is not None:
-                found[there[0].id, there[1]].append(e)
-        return [(layout.by_id[owner], parts, face) for (owner, face), parts in found.items()]
+                found.setdefault(there[0].id, {}).setdefault(there[1], []).append(e)
+        return [(layout.by_id[owner], groups) for owner, groups in found.items()]
 
-    def _by_sibling(self, layout: Layout, node: str) -> list[tuple[Element, list[Element], str]]:
+    def _by_sibling(self, layout: Layout) -> list[tuple[Element, dict[str, list[Element]]]]:
+        """The solids that are changed, and those that change them."""
         gone: set[str] = set()
         found = []
         for e in self._solids(layout):
@@ -88,9 +89,9 @@ class Boolean(Operation):
             ]
             if touched and self.kind == "merge":
                 gone |= {other.id for other in touched}
-                found.append((e, touched, ""))
+                found.append((e, {"": touched}))
             elif self.kind == "subtract":
-                found += [(other, [e], "") for other in touched]
+                found += [(other, {"": [e]}) for other in touched]
         return found
 
     def decide(self, proposed: tuple[tuple[Element, ...], tuple[str, ...]], layout: Layout, node: str) -> tuple[Layout]:
@@ -100,8 +101,11 @@ class Boolean(Operation):
 
     def content(self, layout: Layout) -> tuple[Hashable, ...]:
         """The settings, the elements, and the solids that they meet."""
-        work = self._by_sibling(layout, "") if self.target == "siblings" else self._by_surface(layout, "")
-        return (self._lesson, *((whole, tuple(parts), face) for whole, parts, face in work))
+        work = self._by_sibling(layout) if self.target == "siblings" else self._by_surface(layout)
+        return (
+            self._lesson,
+            *((whole, tuple((face, tuple(group)) for face, group in groups.items())) for whole, groups in work),
+        )
 
 
 def _standing(element: Element, whole: Element) -> tuple[Solid, Frame]:

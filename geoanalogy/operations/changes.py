@@ -3,16 +3,19 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from ..geometry.boolean import Kind, combined
+from ..errors import InputError
+from ..geometry.boolean import Kind, combined, is_square
 from ..geometry.cutting import with_openings
-from ..geometry.frame import Frame
+from ..geometry.frame import SPACE, Frame
 from ..geometry.memory import Memory
 from ..geometry.solid import Solid
+
+Standing = tuple[Solid, Frame]
 
 
 @dataclass(frozen=True)
 class Change:
-    """One boolean of a solid with those that stand on one of its surfaces, or beside it.
+    """One boolean of a solid with those that stand on its surfaces, or beside it.
 
     Attributes
     ----------
@@ -20,16 +23,14 @@ class Change:
         Id of the node that did it.
     kind : str
         "merge" or "subtract".
-    face : str
-        Name of the face that they stand on; "" where they stand beside it.
-    parts : tuple of (Solid, Frame)
-        With the frame that each stands in, in the coordinates of the solid.
+    groups : tuple of (str, tuple of (Solid, Frame))
+        Name of the face that they stand on, "" where they stand beside it; and with each the frame that it stands in,
+        in the coordinates of the solid.
     """
 
     node: str
     kind: Kind
-    face: str
-    parts: tuple[tuple[Solid, Frame], ...]
+    groups: tuple[tuple[str, tuple[Standing, ...]], ...]
 
     def applied(self, solid: Solid) -> Solid:
         """The solid after the change.
@@ -41,15 +42,29 @@ class Change:
         Returns
         -------
         Solid
+
+        Raises
+        ------
+        InputError
+            Where a face is no longer there, and what `combined` raises.
         """
-        if not self.face:
-            return combined(solid, self.parts, self.kind)
-        kept = solid.with_domains()
-        index = kept.by_name[self.face]
-        rest = list(self.parts)
-        if self.kind == "subtract":
-            kept, rest = with_openings(kept, index, rest)
-        return combined(kept, rest, self.kind, kept.faces[index].frame) if rest else kept
+        waiting: dict[Frame, list[Standing]] = {}
+        for name, parts in self.groups:
+            frame, rest = SPACE, list(parts)
+            if name:
+                if name not in solid.by_name:
+                    raise InputError("its surface is no longer there")
+                face = solid.by_name[name]
+                solid = solid.with_domain(face)
+                frame = solid.faces[face].frame
+                if self.kind == "subtract":
+                    solid, rest = with_openings(solid, face, rest)
+            # All planes that are square to the solid's axes share a grid.
+            waiting.setdefault(SPACE if is_square(frame) else frame, []).extend(rest)
+        for frame, parts_there in waiting.items():
+            if parts_there:
+                solid = combined(solid, parts_there, self.kind, frame)
+        return solid
 
 
 def changed(base: Solid, changes: Iterable[Change], memory: Memory) -> Solid:

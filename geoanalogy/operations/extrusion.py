@@ -20,7 +20,7 @@ from .element import Element
 from .keys import key_of
 from .layout import Layout
 from .operation import Operation
-from .settings import flag, number, stored, text
+from .settings import flag, number, one_of, stored, text
 
 Array = NDArray[np.float64]
 
@@ -35,7 +35,8 @@ def _read_range(value: Any) -> tuple[float, float]:
 
 def _read_roof(value: Mapping[str, Any]) -> Roof:
     plain = dict(value)
-    return Roof(kind=plain.pop("kind", "flat"), **{k: None if v is None else number(v) for k, v in plain.items()})  # type: ignore[arg-type]
+    kind: Any = one_of("flat", "hip", "gable", "mansard")(plain.pop("kind", "flat"))
+    return Roof(kind=kind, **{k: None if v is None else number(v) for k, v in plain.items()})
 
 
 def _read_labels(value: Mapping[str, Any]) -> FaceLabels:
