@@ -1,7 +1,9 @@
 """Learn from the selected examples, and fill every place like them."""
 
+import math
+
 import bpy
-from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from ..geoanalogy.blender import names
 from ..geoanalogy.blender.placement_recording import THRESHOLD, placement_steps
@@ -40,6 +42,9 @@ class GEOANALOGY_OT_place(LongEdit, bpy.types.Operator):
         max=20.0,
         default=PlacementOptions().tau,
     )
+    any_size: BoolProperty(
+        name="Any Size", description="Places may be much larger or smaller than the examples, and of other proportions"
+    )
     name: StringProperty(name="Name", description="Of the operation; empty: the label of what is placed")
 
     @classmethod
@@ -56,7 +61,7 @@ class GEOANALOGY_OT_place(LongEdit, bpy.types.Operator):
             context,
             examples,
             element,
-            PlacementOptions(tau=self.tau),
+            self._options(),
             fit=(self.along, self.across),
             gap=tuple(self.gap),
             threshold=round(self.threshold, 6),
@@ -65,10 +70,14 @@ class GEOANALOGY_OT_place(LongEdit, bpy.types.Operator):
         )
         return f"{node[names.COUNT]} objects placed"
 
+    def _options(self):
+        tolerances = {"aspect_tolerance": math.inf, "area_tolerance": math.inf} if self.any_size else {}
+        return PlacementOptions(tau=round(self.tau, 6), **tolerances)
+
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
-        for name in ("threshold", "along", "across", "gap", "most", "tau", "name"):
+        for name in ("threshold", "along", "across", "gap", "most", "tau", "any_size", "name"):
             layout.prop(self, name)
 
 

@@ -474,6 +474,16 @@ def test_a_placement_that_is_cancelled_halfway_changes_nothing():
     assert everything() == before
 
 
+def test_the_redo_panel_sets_the_engines_options():
+    facades = street()
+    examples(facades[0])
+    place(tau=0.4, any_size=True, threshold=0.6, most=3, along="repeat", gap=(0.2, 0.1))
+    options = operation().model.options
+    assert (options.tau, options.aspect_tolerance, options.area_tolerance) == (0.4, np.inf, np.inf)
+    assert (operation().threshold, operation().max_per, operation().fit) == (0.6, {"facade": 3}, ("repeat", "scale"))
+    assert operation().gap == pytest.approx((0.2, 0.1))
+
+
 def test_preferences_are_set_for_the_selection():
     facades = street()
     made = examples(facades[0])
