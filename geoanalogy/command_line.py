@@ -143,6 +143,21 @@ def _replay(arguments: argparse.Namespace, progress: ProgressLines) -> str:
     return "\n".join([made, *(f"wrote {path}" for path in results)])
 
 
+def _apply(arguments: argparse.Namespace, progress: ProgressLines) -> str:
+    _check_writable([arguments.output])
+    from .applying import apply_file
+    from .formats import obj
+    from .geometry.mesh import Mesh
+
+    applied = apply_file(
+        arguments.tree, arguments.parcels, seed=arguments.seed, label=arguments.label, progress=progress
+    )
+    meshes = [(e.id, e.mesh) for e in applied if isinstance(e.mesh, Mesh)]
+    obj.write(meshes, arguments.output)
+    made = f"{len(applied)} elements, {len(meshes)} objects; {applied.hit_rate:.0%} of all surfaces were known"
+    return "\n".join([*applied.problems, made, f"wrote {arguments.output}"])
+
+
 def build_parser() -> argparse.ArgumentParser:
     """The program's command-line parser.
 
@@ -172,6 +187,15 @@ def build_parser() -> argparse.ArgumentParser:
     replay.add_argument("--seed", type=int, metavar="N", help="seed of the operations that draw lots (their own)")
     replay.add_argument("--threshold", type=_fraction, metavar="T", help="least importance of a result (their own)")
     replay.set_defaults(run=_replay)
+
+    apply = commands.add_parser("apply", help="apply an operations tree to a file of parcels")
+    apply.add_argument("--tree", type=_path_with_suffix(".json"), required=True, metavar="TREE.json")
+    apply.add_argument("--parcels", type=Path, required=True, metavar="FILE.geojson", help="labelled polygons")
+    apply.add_argument("--label", metavar="NAME", help="property of the file that holds the labels")
+    apply.add_argument("--seed", type=int, default=0, metavar="N", help="seed of all chance (0)")
+    obj = _path_with_suffix(".obj")
+    apply.add_argument("--output", type=obj, required=True, metavar="OUT.obj", help="write the meshes here")
+    apply.set_defaults(run=_apply)
     return parser
 
 

@@ -141,6 +141,10 @@ SAME_POLYGON = 1e-4
 #: about: a replay after a wall was moved shifts results a little; of several, the nearest is meant.
 SAME_RESULT = 0.05
 
+#: Area, in squared scene units, of the smallest parcel that anything is built on; less is left where borders were drawn
+#: twice.
+SMALLEST_PARCEL = 1.0
+
 #: Largest distance between neighbouring samples of a line, in extents of the drawing (appendix A: about one percent).
 SAMPLE_SPACING = 0.01
 

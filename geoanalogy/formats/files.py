@@ -7,6 +7,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..geometry.scene import Scene
+from ..tolerances import SMALLEST_PARCEL
 from . import dxf, geojson, svg
 from .outlines import Outline, Points, make_scene
 
@@ -56,6 +57,47 @@ def read_scene(path: str | os.PathLike[str], *, label: str | None = None, scale:
     if scale != 1.0:
         outlines = [Outline(o.where, [r * scale for r in o.rings], o.properties) for o in outlines]
     return make_scene(path.name, outlines)
+
+
+def read_parcels(path: str | os.PathLike[str], *, label: str | None = None) -> tuple[Scene, list[str]]:
+    """The sound parcels of a file, and what is wrong with the others.
+
+    Parameters
+    ----------
+    path : str or path-like
+        As for `read_scene`.
+    label : str, optional
+        As for `read_scene`.
+
+    Returns
+    -------
+    scene : Scene
+    problems : list of str
+        A sentence for every parcel that is left out: no simple ring, hardly any area, no label.
+
+    Raises
+    ------
+    InputError
+        Where the file itself cannot be read.
+    """
+    path = Path(path)
+    reader = _READERS.get(path.suffix.lower())
+    if reader is None:
+        raise InputError(f"{path.name} is in no format that is read; give a .geojson, .json, .svg or .dxf file")
+    problems: list[str] = []
+    scene = make_scene(path.name, reader(_content(path), path.name, label), problems)
+    parents = {p.parent for p in scene.polygons}
+    sound = []
+    for p in scene.polygons:
+        if p.area < SMALLEST_PARCEL:
+            problems.append(
+                f"{path.name}, polygon {p.id!r}: its area is {p.area:.3g}; delete it or correct its outline"
+            )
+        elif not p.label and p.id not in parents:
+            problems.append(f"{path.name}, polygon {p.id!r}: it has no label, so that no operation fits; give it one")
+        else:
+            sound.append(p)
+    return Scene(sound, scene.offset, scene.memory), problems
 
 
 def read_drawing(path: str | os.PathLike[str]) -> list[Points]:

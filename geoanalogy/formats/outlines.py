@@ -38,7 +38,7 @@ class Outline:
     properties: dict[str, Any] = field(default_factory=dict)
 
 
-def make_scene(file: str, outlines: Sequence[Outline]) -> Scene:
+def make_scene(file: str, outlines: Sequence[Outline], problems: list[str] | None = None) -> Scene:
     """The scene of a file's outlines, brought near the origin where they lie far from it.
 
     Parameters
@@ -46,6 +46,8 @@ def make_scene(file: str, outlines: Sequence[Outline]) -> Scene:
     file : str
         The file's name, for messages.
     outlines : sequence of Outline
+    problems : list of str, optional
+        Takes a sentence for every outline that makes no polygon, and the rest is read; None: the first such is raised.
 
     Returns
     -------
@@ -70,7 +72,9 @@ def make_scene(file: str, outlines: Sequence[Outline]) -> Scene:
             first, *holes = (r - offset for r in outline.rings)
             polygons.append(Polygon(first, holes=holes, **outline.properties))
         except InputError as error:
-            raise InputError(f"{file}, {outline.where}: {error}") from None
+            if problems is None:
+                raise InputError(f"{file}, {outline.where}: {error}") from None
+            problems.append(f"{file}, {outline.where}: {error}")
     scene = Scene(polygons, offset=(float(offset[0]), float(offset[1])))
     try:
         for polygon in scene.polygons[:1]:

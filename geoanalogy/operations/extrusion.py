@@ -34,9 +34,9 @@ def _read_range(value: Any) -> tuple[float, float]:
 
 
 def _read_roof(value: Mapping[str, Any]) -> Roof:
-    plain = dict(value)
-    kind: Any = one_of("flat", "hip", "gable", "mansard")(plain.pop("kind", "flat"))
-    return Roof(kind=kind, **{k: None if v is None else number(v) for k, v in plain.items()})
+    plain: dict[str, Any] = {name: None if v is None else number(v) for name, v in value.items() if name != "kind"}
+    kind: Any = one_of("flat", "hip", "gable", "mansard")(value.get("kind", "flat"))
+    return Roof(kind=kind, **plain)
 
 
 def _read_labels(value: Mapping[str, Any]) -> FaceLabels:

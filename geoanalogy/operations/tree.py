@@ -3,7 +3,8 @@
 import heapq
 import json
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,12 @@ from .layout import Layout, merge
 from .node import Link, Node
 
 SCHEMA = "geoanalogy.operations"
-VERSION = 1
+
+#: How a stored tree of each version becomes one of the next: the first from version 1 to 2, and so on.
+MIGRATIONS: tuple[Callable[[Mapping[str, Any]], Mapping[str, Any]], ...] = ()
+
+#: The version that is written.
+VERSION = 1 + len(MIGRATIONS)
 
 
 class OperationsTree:
@@ -124,6 +130,34 @@ class OperationsTree:
             It shares what has been evaluated.
         """
         return OperationsTree({**self._by_id, node.id: node}.values(), self.evaluations)
+
+    def with_tree(self, other: "OperationsTree", after: Sequence[Link], prefix: str = "") -> "OperationsTree":
+        """The tree with another one grown onto it, which was learned apart.
+
+        Parameters
+        ----------
+        other : OperationsTree
+            Its nodes without inputs get those given.
+        after : sequence of Link
+            Outputs of this tree: the chosen leaves.
+        prefix : str
+            Put before the ids of the other's nodes, and so in front of the names that chance and corrections go by.
+
+        Returns
+        -------
+        OperationsTree
+            It shares what this one has evaluated.
+
+        Raises
+        ------
+        InputError
+            Where a node of the other has the id of one of this.
+        """
+        grown = []
+        for node in other.nodes:
+            links = tuple(Link(prefix + link.node, link.output) for link in node.inputs) or tuple(after)
+            grown.append(replace(node, id=prefix + node.id, inputs=links))
+        return OperationsTree([*self.nodes, *grown], self.evaluations)
 
     @property
     def leaves(self) -> tuple[str, ...]:
@@ -293,6 +327,8 @@ class OperationsTree:
             raise InputError(f"{name} is no operations tree; choose a file that GeoAnalogy has saved")
         if int(version) > VERSION:
             raise InputError(f"{name} was saved by a newer version of GeoAnalogy ({schema}); update the add-on")
+        for step in MIGRATIONS[max(int(version), 1) - 1 :]:
+            plain = step(plain)
         if int(version) < 1 or not isinstance(plain.get("nodes"), list):
             raise InputError(f"{name} is damaged: it has no list of nodes; save it again")
         try:

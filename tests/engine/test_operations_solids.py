@@ -468,3 +468,28 @@ def test_an_output_that_is_not_there_is_named(tree):
     select = Node("select", Selection(label="plot", weights=(1.0, 1.0)))
     with pytest.raises(InputError, match="node 'x' asks for output 2 of node 'select', which has 2; relink it"):
         OperationsTree([select, Node("x", Selection(label="plot"), (Link("select", 2),))])
+
+
+def test_trees_learned_apart_grow_together(tree):
+    scene = Scene(plots())
+    masses = OperationsTree([tree.node("house"), tree.node("mass")])
+    facades = OperationsTree([dataclasses.replace(tree.node("window"), inputs=()), tree.node("hole"), tree.node("cut")])
+    grown = masses.with_tree(facades, [Link("mass")])
+    assert grown.to_dict() == tree.to_dict()
+    assert grown.apply(scene, seed=7) == tree.apply(scene, seed=7)
+    apart = masses.with_tree(facades, [Link("mass")], prefix="front ")
+    assert [node.id for node in apart.nodes] == ["house", "mass", "front window", "front hole", "front cut"]
+    assert len(named(apart.apply(scene), "window")) == 3
+    with pytest.raises(InputError, match="several nodes are called 'house'; give each node an id of its own"):
+        masses.with_tree(masses, [Link("mass")])
+
+
+def test_stored_trees_of_older_versions_are_migrated(tree, monkeypatch):
+    plain = tree.to_dict()
+    older = {**plain, "steps": plain["nodes"]}
+    del older["nodes"]
+    monkeypatch.setattr("geoanalogy.operations.tree.MIGRATIONS", (lambda p: {**p, "nodes": p["steps"]},))
+    monkeypatch.setattr("geoanalogy.operations.tree.VERSION", 2)
+    assert OperationsTree.from_dict(older).to_dict()["nodes"] == plain["nodes"]
+    newest = {**plain, "schema": "geoanalogy.operations/2"}
+    assert OperationsTree.from_dict(newest).to_dict() == newest

@@ -34,8 +34,9 @@ MAY_IMPORT = {
     "regions": BASE | {"geometry", "relations"},
     "formats": BASE | {"geometry", "regions"},
     "operations": BASE | ENGINES | {"geometry", "relations"},
-    "blender": BASE | ENGINES | {"geometry", "relations", "operations", "formats", "command_line"},
-    "command_line": BASE | ENGINES | {"geometry", "relations", "operations", "formats", "blender"},
+    "applying": BASE | ENGINES | {"geometry", "relations", "operations", "formats"},
+    "blender": BASE | ENGINES | {"geometry", "relations", "operations", "formats", "applying", "command_line"},
+    "command_line": BASE | ENGINES | {"geometry", "relations", "operations", "formats", "applying", "blender"},
     # The package's own face: it collects the names, and is imported by none of them.
     "__init__": BASE | ENGINES | {"geometry", "relations", "operations", "formats"},
 }
