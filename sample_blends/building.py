@@ -12,6 +12,7 @@ import numpy as np
 
 from geoanalogy.blender import names
 from geoanalogy.blender.instances import clear_results
+from geoanalogy.command_line import leave
 
 from . import stage
 from .edits.edit import AnyEdit
@@ -89,3 +90,4 @@ def run(
             clear_results(scene)
         bpy.ops.wm.save_as_mainfile(filepath=str(arguments.output.resolve()), compress=True)
         print(f"saved {arguments.output}")
+    leave(0)

@@ -18,7 +18,7 @@ from ..relations.table import Positional
 from .fields import FAR
 from .kernels import level_set, wrap
 from .matching import Answers
-from .query import distance, is_length, reference, side
+from .query import is_length, reference, side, turning
 
 if TYPE_CHECKING:
     from .importance import Importance
@@ -295,20 +295,22 @@ class Rows:
         y += position[self.pose, 1]
         seen = Sighting(self._elements, element, x, y)
         same = side(element, seen)[:, 0] == inner
+        # Beyond a segment's ends no distance has a side.
+        signed = same if element is not ElementType.SEGMENT else same | ~seen.segment.between[:, 0]
         place = np.empty((len(self.relations), len(self.entry)))
         off = np.zeros_like(place)
         grows = np.empty(place.shape, dtype=np.complex128) if uphill else None
         directed = self.directed
         for k, relation in enumerate(self.relations):
-            place[k] = self._off_level_set(relation, value[k], seen, same)
+            place[k] = self._off_level_set(relation, value[k], seen, signed)
             if directed.any():
                 miss = angle[self.pose] - reference(relation, seen)[:, 0] - turn[k]
                 off[k] = np.where(directed, wrap(miss), 0.0)
             if grows is not None:
                 way = relation.uphill(seen)[:, 0]
-                grows[k] = np.where(same, way, -way) if is_length(relation) else way
+                grows[k] = np.where(signed, way, -way) if is_length(relation) else way
         # At a contact, on either side of it, the side means nothing but to the distance itself.
-        allowed = near | (distance(element, seen)[:, 0] < self.width) | same
+        allowed = near | (turning(element, seen)[:, 0] < self.width) | same
         return Misses(place, off, allowed, grows)
 
     def _off_level_set(self, relation: Positional, value: Array, seen: Sighting, same: Bools) -> Array:

@@ -14,6 +14,7 @@ from ..progress import Progress, Stepper, run
 from ..tolerances import CONTAINED_SHARE
 from .arrangement import Arrangement, arrangement_of
 from .candidates import FOOTPRINT_SLACK, Candidates, find_candidates
+from .fields import Fields
 from .importance import Importance
 from .kernels import wrap
 from .matching import Sense, senses
@@ -28,7 +29,7 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 #: Differences in importance below this are none: about what the refinement leaves.
-EQUAL = 5e-4
+EQUAL = 1e-4
 
 #: Rooms within this share of the example's size are of its size: in proportion to the room (option `scale`) is then
 #: the same as fixed.
@@ -41,6 +42,9 @@ SCALED_FACTOR = 0.95
 #: Parents whose candidates are refined together: enough that little is spent on each, and so few that a plan of
 #: thousands of rooms is not held at once.
 TOGETHER = 16
+
+#: Grid points of one parent at most, in proportion to those wanted over all.
+MOST_CELLS = 4
 
 #: Grid spacing at least, in half-widths of level sets: finer grids find nothing that the refinement would not. The
 #: level sets that places of footprints are found with are wider.
@@ -191,14 +195,21 @@ class PoseModel:
         for importance in self.importances(target):
             slack = FOOTPRINT_SLACK * importance.width
             share = 1.0 if self._validation.may_jut_out else 2 * JUTTING_SHARE
-            margin = share * float(np.hypot(*importance.samples.T).max()) + spacing
-            fields = target.fields(spacing, margin)
+            margin = share * float(np.hypot(*importance.samples.T).max())
+            fields = self._fields(target, spacing, margin)
             blocked = self._validation.blocked(target, fields, slack)
             # The example would outshine the other places of its room.
             taken = self._is_example(target, fields.grid.points, importance.mirrored)
             candidates = find_candidates(importance, fields, blocked, taken)
             if len(candidates.angle):
                 yield importance, candidates
+
+    def _fields(self, target: Arrangement, spacing: float, margin: float) -> Fields:
+        """The fields of an arrangement; coarser where a large object may jut out of a small parent."""
+        box = target.parent.bounds[2:] - target.parent.bounds[:2] + 2 * margin
+        least = float(np.sqrt(np.prod(box) / (MOST_CELLS * self.options.cells)))
+        coarser = max(0.0, float(np.ceil(np.log2(least / spacing))))
+        return target.fields(spacing * 2**coarser, margin + spacing * 2**coarser)
 
     def _answers(self, tried: Sequence[tuple[Importance, Candidates]]) -> list[PropagatedPose]:
         """What the candidates of some arrangements lead to."""

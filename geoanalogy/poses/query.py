@@ -68,7 +68,7 @@ class Question:
     inner : ndarray of shape (k,), bool
         Whether the sample is on the interior's side of the feature's boundary; and
     contact : ndarray of shape (k,)
-        its distance to the feature: at a contact the side means nothing.
+        its distance from where the side changes: near it the side means nothing.
     """
 
     relations: tuple[Positional, ...]
@@ -140,7 +140,7 @@ class Query:
             value=np.array([r.value(seen)[at] for r in relations]),
             turn=np.array([self.pose.angle - reference(r, seen)[at] for r in relations]),
             inner=side(element, seen)[at],
-            contact=distance(element, seen)[at],
+            contact=turning(element, seen)[at],
         )
 
     def _local_importance(self, element: ElementType, seen: Observation) -> Array:
@@ -199,6 +199,21 @@ def side(element: ElementType, seen: Observation) -> NDArray[np.bool_]:
     if element is ElementType.CORNER:
         return np.ones((len(seen.elements.corner_vertex), len(seen.points)), dtype=bool)
     return seen.boundary.left if element is ElementType.POLYGON else seen.segment.left
+
+
+def turning(element: ElementType, seen: Observation) -> Array:
+    """Distance of points from where the side of elements changes: boundaries, and the lines that segments lie on.
+
+    Parameters
+    ----------
+    element : ElementType
+    seen : Observation
+
+    Returns
+    -------
+    ndarray of shape (elements, points)
+    """
+    return np.abs(seen.segment.across) if element is ElementType.SEGMENT else distance(element, seen)
 
 
 def reference(relation: Positional, seen: Observation) -> Array:

@@ -35,6 +35,8 @@ class Nearest:
         Index of the edge that the place is on.
     left : ndarray of shape (elements, points), bool
         Whether the point lies to the left of the boundary there: on the interior's side.
+    across : ndarray of shape (elements, points)
+        Signed distance of the point from the straight line through that edge, positive to the left.
     """
 
     distance: Array
@@ -43,6 +45,7 @@ class Nearest:
     between: NDArray[np.bool_]
     edge: NDArray[np.intp]
     left: NDArray[np.bool_]
+    across: Array
 
 
 class Observation:
@@ -77,7 +80,7 @@ class Observation:
         n = len(self.points)
         if not count:
             empty = np.zeros((0, n))
-            return Nearest(empty, empty, empty, empty.astype(bool), empty.astype(np.intp), empty.astype(bool))
+            return Nearest(empty, empty, empty, empty.astype(bool), empty.astype(np.intp), empty.astype(bool), empty)
         if len(group) == count:  # one edge each: straight segments
             best = np.broadcast_to(np.arange(count)[:, None], (count, n))
         else:
@@ -103,7 +106,7 @@ class Observation:
         # Round a vertex the two edges may disagree; there the points lie on the outer side of its turn.
         left = across >= -ZERO_LENGTH * e.edge_length[best]
         left[row, point] = e.edge_turns[edge, end] <= 0
-        return Nearest(distance, place + offset[best], tangent, between, best, left)
+        return Nearest(distance, place + offset[best], tangent, between, best, left, across)
 
     @cached_property
     def segment(self) -> Nearest:

@@ -68,7 +68,8 @@ class Sighting(Observation):
             ux, uy = ux[edge], uy[edge]
         between = (along > 0) & (along < e.edge_length[edge])
         tangent = e.edge_heading[edge]
-        left = ux * y - uy * x >= -ZERO_LENGTH * e.edge_length[edge]
+        across = ux * y - uy * x
+        left = across >= -ZERO_LENGTH * e.edge_length[edge]
         if ends is not None:
             end = (along > 0).astype(np.intp)
             row = np.flatnonzero(~between & (distance > 0) & ~ends[edge, end])
@@ -84,6 +85,7 @@ class Sighting(Observation):
             between=between[:, None],
             edge=edge[:, None],
             left=left[:, None],
+            across=across[:, None],
             x=x,
             y=y,
         )

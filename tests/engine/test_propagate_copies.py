@@ -269,3 +269,19 @@ def test_many_rooms_are_not_remembered_at_once():
     assert {r.parent.id for r in results} >= {f"room {k}" for k in range(1, 64)}
     assert max(held) <= scene.memory.limit + TOGETHER * max(largest)
     assert max(held) < 64 * max(largest) / 2
+
+
+@pytest.mark.parametrize("turn", np.linspace(0.3, 6.0, 5))
+def test_what_stands_in_line_with_other_edges_is_copied_exactly(turn):
+    """A night table against the wall that the bed's edge lies on: the line's two sides are the same there."""
+    things = (
+        ("bedroom", rectangle(5, 4)),
+        ("bed", rectangle(2, 1.6, (0.0, 1.5))),
+        ("door", rectangle(0.9, 0.9, (4, 0))),
+    )
+    where = Similarity(turn, 1.0, (12.0, 3.0))
+    table = rectangle(0.5, 0.4, (-0.25, -0.2))
+    pose = Pose((0.25, 1.1), 0.0)
+    best = best_in(propagate_pose(scene_of(things, where), pose, table), "room 1")
+    assert gap(best.pose, moved(pose, where)) == pytest.approx((0, 0), abs=1e-3)
+    assert best.importance == pytest.approx(1, abs=1e-3)
