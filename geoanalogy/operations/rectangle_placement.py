@@ -197,7 +197,7 @@ class RectanglePlacement(PlacingOne):
                 shown += self._elements([rectangle], Placement(rectangle, target, parent, 0.0), node, example=True)
         for p in sorted(results, key=lambda p: -p.score):
             filling = element_array(p.rectangle, self.size, self.fit, self.gap)
-            shown += self._elements(_within(filling, p.parent), p, node)
+            shown += self._elements(_within(filling, p.parent) if "repeat" in self.fit else filling, p, node)
         return with_distinct_keys(shown)
 
     def _is_drawn(self, placement: Placement, drawn: Sequence[tuple[Rectangle, float, Polygon, bool]]) -> bool:
@@ -263,10 +263,8 @@ class RectanglePlacement(PlacingOne):
         return [p for p in scene.polygons if p.id in read]
 
 
-def _within(rectangles: Sequence[Rectangle], parent: Polygon) -> Sequence[Rectangle]:
-    """Those of the objects of an array that lie in a parent of any shape; a single one stays where it was found."""
-    if len(rectangles) < 2:
-        return rectangles
+def _within(rectangles: Sequence[Rectangle], parent: Polygon) -> list[Rectangle]:
+    """Those of the objects of an array that lie in a parent of any shape."""
     shapes = shapely.polygons([r.ring for r in rectangles])
     held = shapely.area(shapely.intersection(shapes, parent.shape)) / shapely.area(shapes)
     return [r for r, share in zip(rectangles, held, strict=True) if share >= CONTAINED_SHARE]

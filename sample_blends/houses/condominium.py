@@ -8,7 +8,7 @@ import numpy as np
 
 from geoanalogy.geometry.roof import Roof
 
-from .parts import GARDEN, SIDE, STREET, bars, over, windows
+from .parts import GARDEN, SIDE, STREET, along_bottom, bars, over, windows
 from .recorder import Box, Recorder, Sheet
 
 PLOT = "condominium"
@@ -27,14 +27,9 @@ def risalit(s: Sheet) -> Sequence[Box]:
     return [((x0 + x1) / 2 - 3, y0 - 1.2, (x0 + x1) / 2 + 3, y0 + 1.0) for x0, y0, x1, _ in s.boxes("block")]
 
 
-def base(s: Sheet) -> Sequence[Box]:
-    x0, y0, x1, _ = s.edges
-    return [(x0, y0, x1, y0 + 0.6)] if s.width > 4 else []
-
-
 def cornice(s: Sheet) -> Sequence[Box]:
     x0, _, x1, y1 = s.edges
-    return [(x0, y1 - 0.3, x1, y1)] if s.width > 4 else []
+    return [(x0, y1 - 0.45, x1, y1 - 0.1)]
 
 
 def entrance(s: Sheet) -> Sequence[Box]:
@@ -60,10 +55,6 @@ def side_windows(s: Sheet) -> Sequence[Box]:
 def loggias(s: Sheet) -> Sequence[Box]:
     x0, y0, x1, y1 = s.edges
     return [(x0 + 1.0, y0 + 0.9, x1 - 1.0, y1 - 0.8)] if s.width > 8 else []
-
-
-def slab(s: Sheet) -> Sequence[Box]:
-    return [(x0 - 0.3, y0 - 0.2, x1 + 0.3, y0) for x0, y0, x1, _ in s.boxes("loggia")]
 
 
 def attic(s: Sheet) -> Sequence[Box]:
@@ -105,7 +96,7 @@ def record(r: Recorder) -> None:
     r.at = (new,)
     r.place("wing", PLOT, wing, 5, max_per={PLOT: 1})
     r.extrude("block", 12.4, (0.77, 1.23), side="wall", top="terrace")
-    r.extrude("wing", 9.3, (0.7, 1.0), side="wall", top="terrace")
+    r.extrude("wing", 9.3, (0.7, 1.0), side="wall", top="wing terrace")
     r.at = (*mansards, *r.at)
     r.extrude("stairs", 8.9, side="stair wall", top="porch roof")
     r.merge("block", "siblings")
@@ -117,17 +108,17 @@ def record(r: Recorder) -> None:
     r.attach("canopy", 1.2)
     windows(r, "stair window", front, stair_windows, (1.6, 1.5), (1.0, 1.5))
     windows(r, "window", STREET, street_windows, (1.5, 1.6), (1.3, 1.5))
-    bars(r, "window glass")
-    r.place("base", STREET, base, 6, max_per={STREET: 1})
-    r.attach("base", 0.08)
+    bars(r, "window")
+    r.place("cornice", STREET, cornice, 5, max_per={STREET: 1})
+    r.attach("cornice", 0.2)
 
     windows(r, "side window", SIDE, side_windows, (1.1, 1.6), (2.4, 1.5))
     r.place(
         "loggia", GARDEN, loggias, 5, size=(2.6, 2.3), gap=(0.9, 0.8), fit=("repeat", "repeat"), max_per={GARDEN: 1}
     )
     r.recess("loggia", 1.2, "loggia glass")
-    r.place("balcony", GARDEN, slab, 6)
-    r.attach("balcony", 0.9)
+    r.place("balcony", "loggia glass", along_bottom(0.2), 2, max_per={"loggia glass": 1})
+    r.attach("balcony", 2.1)
 
     r.place("attic", "terrace", attic, 4, max_per={"terrace": 1})
     r.extrude("attic", 2.6, side="attic wall", top="attic roof")

@@ -8,7 +8,7 @@ import numpy as np
 
 from geoanalogy.geometry.roof import Roof
 
-from .parts import GARDEN, SIDE, STREET, bars, over, shutters, windows
+from .parts import GARDEN, SIDE, STREET, bars, over, pane, windows
 from .recorder import Box, Recorder, Sheet
 
 PLOT = "one-storey"
@@ -29,9 +29,22 @@ def door(s: Sheet) -> Sequence[Box]:
     return [(x0 + 1.2, y0, x0 + 2.3, y0 + 2.1)] if s.width > 7 else []
 
 
-def street_windows(s: Sheet) -> Sequence[Box]:
+def street_panels(s: Sheet) -> Sequence[Box]:
     _, y0, x1, _ = s.edges
-    return [(d[2] + 0.9, y0 + 0.9, x1 - 0.9, y0 + 2.2) for d in s.boxes("door")]
+    return [(d[2] + 0.7, y0 + 0.8, x1 - 0.6, y0 + 2.3) for d in s.boxes("door")]
+
+
+def window(s: Sheet) -> Sequence[Box]:
+    x0, y0, x1, y1 = s.edges
+    return [(x0 + 0.4, y0 + 0.1, x1 - 0.4, y1 - 0.1)]
+
+
+def left_shutter(s: Sheet) -> Sequence[Box]:
+    return [(x0 - 0.34, y0, x0 - 0.02, y1) for x0, y0, _, y1 in s.boxes("window")]
+
+
+def right_shutter(s: Sheet) -> Sequence[Box]:
+    return [(x1 + 0.02, y0, x1 + 0.34, y1) for _, y0, x1, y1 in s.boxes("window")]
 
 
 def side_windows(s: Sheet) -> Sequence[Box]:
@@ -56,7 +69,7 @@ def skylight(s: Sheet) -> Sequence[Box]:
 
 def gable_window(s: Sheet) -> Sequence[Box]:
     x0, y0, x1, _ = s.edges
-    return [((x0 + x1) / 2 - 0.35, y0 + 0.5, (x0 + x1) / 2 + 0.35, y0 + 1.2)] if s.width > 7 else []
+    return [((x0 + x1) / 2 - 0.35, y0 + 0.3, (x0 + x1) / 2 + 0.35, y0 + 1.0)] if s.width > 7 else []
 
 
 def shed(s: Sheet) -> Sequence[Box]:
@@ -87,11 +100,31 @@ def record(r: Recorder) -> None:
 
     r.place("door", STREET, door, 5, max_per={STREET: 1})
     r.recess("door", 0.25, "front door")
-    r.place("canopy", STREET, over("door", 0.3, 0.12, 0.24), 5)
+    r.place("canopy", STREET, over("door", 0.3, 0.12, 0.24), 5, max_per={STREET: 1})
     r.attach("canopy", 0.9)
-    windows(r, "window", STREET, street_windows, (1.4, 1.3), (0.8, 1.0))
-    bars(r, "window glass")
-    shutters(r, "window", STREET)
+    # Panels, half of them with shutters, hold the windows of the front.
+    r.place(
+        "panel",
+        STREET,
+        street_panels,
+        5,
+        size=(2.1, 1.5),
+        gap=(0.5, 1.0),
+        fit=("repeat", "repeat"),
+        max_per={STREET: 1},
+    )
+    r.recess("panel", 0.03, "panelling")
+    r.place("window", "panelling", window, 2, max_per={"panelling": 1})
+    plain, shuttered = r.select("panelling", (1.0, 1.0))
+    r.at = (shuttered,)
+    r.place("left shutter", "panelling", left_shutter, 2, max_per={"panelling": 1})
+    r.place("right shutter", "panelling", right_shutter, 2, max_per={"panelling": 1})
+    r.attach("left shutter", 0.06)
+    r.attach("right shutter", 0.06)
+    r.at = (plain, *r.at)
+    r.recess("window", 0.12, "window glass")
+    pane(r, "window")
+    bars(r, "window")
 
     windows(r, "side window", SIDE, side_windows, (1.1, 1.3), (1.6, 1.0))
     r.place("terrace door", GARDEN, terrace_door, 4, max_per={GARDEN: 1})

@@ -1,4 +1,8 @@
-"""What all three types of houses have: doors, windows, sills, shutters, drawn as a user draws them."""
+"""What all three types of houses have: windows with sills, bars and shutters, drawn as a user draws them.
+
+What is repeated many times is built up inside its own surface: a window is pushed in, and its sill and bars are then
+placed on the pane. Equal panes are one lesson and one computation, however many there are.
+"""
 
 from __future__ import annotations
 
@@ -8,73 +12,63 @@ from .recorder import Box, Draw, Recorder, Sheet
 
 STREET, SIDE, GARDEN = "street wall", "side wall", "garden wall"
 
-
-def under(label: str, out: float, low: float, high: float) -> Draw:
-    """A box under every element of a label: so much wider on either side, from and to so much below its lower edge."""
-    return lambda s: [(x0 - out, y0 - low, x1 + out, y0 - high) for x0, y0, x1, _ in s.boxes(label)]
+#: How deep windows lie in walls, and how far sills stand out of them.
+REVEAL, SILL = 0.15, 0.1
 
 
 def over(label: str, out: float, low: float, high: float) -> Draw:
-    """A box over every element of a label."""
+    """A box over every element of a label: so much wider on either side, from and to so much above it."""
     return lambda s: [(x0 - out, y1 + low, x1 + out, y1 + high) for x0, _, x1, y1 in s.boxes(label)]
 
 
-def left_of(label: str, gap: float, width: float) -> Draw:
-    """A box to the left of every element of a label, as high as it is."""
-    return lambda s: [(x0 - gap - width, y0, x0 - gap, y1) for x0, y0, _, y1 in s.boxes(label)]
+def along_bottom(height: float) -> Draw:
+    """A box along the lower edge."""
+
+    def draw(s: Sheet) -> Sequence[Box]:
+        x0, y0, x1, _ = s.edges
+        return [(x0, y0, x1, y0 + height)]
+
+    return draw
 
 
-def right_of(label: str, gap: float, width: float) -> Draw:
-    """A box to the right of every element of a label, as high as it is."""
-    return lambda s: [(x1 + gap, y0, x1 + gap + width, y1) for _, y0, x1, y1 in s.boxes(label)]
+def upright_bar(thickness: float) -> Draw:
+    """A bar up the middle."""
 
-
-def shutters(r: Recorder, window: str, on: str) -> None:
-    """Shutters on half of the windows: a selection and six operations."""
-    plain, shuttered = r.select(window, (1.0, 1.0))
-    r.at = (shuttered,)
-    r.place("left shutter", on, left_of(window, 0.04, 0.3), 4, forbid_intersections=True)
-    r.place("right shutter", on, right_of(window, 0.04, 0.3), 4, forbid_intersections=True)
-    r.attach("left shutter", 0.05)
-    r.attach("right shutter", 0.05)
-    r.at = (plain, *r.at)
-
-
-def bars(r: Recorder, glass: str) -> None:
-    """An upright and a level bar on panes: six operations."""
-    upright, level = cross(0.06)
-    r.place(f"{glass} upright", glass, upright, 3, max_per={glass: 1})
-    r.place(f"{glass} level", glass, level, 3, max_per={glass: 1})
-    r.attach(f"{glass} upright", 0.04)
-    r.attach(f"{glass} level", 0.05)
-
-
-def cross(thickness: float) -> tuple[Draw, Draw]:
-    """The upright and the level bar of a window."""
-    half = thickness / 2
-
-    def upright(s: Sheet) -> Sequence[Box]:
+    def draw(s: Sheet) -> Sequence[Box]:
         x0, y0, x1, y1 = s.edges
-        return [((x0 + x1) / 2 - half, y0, (x0 + x1) / 2 + half, y1)]
+        return [((x0 + x1 - thickness) / 2, y0, (x0 + x1 + thickness) / 2, y1)]
 
-    def level(s: Sheet) -> Sequence[Box]:
+    return draw
+
+
+def level_bar(thickness: float) -> Draw:
+    """A bar across, at two thirds of the height."""
+
+    def draw(s: Sheet) -> Sequence[Box]:
         x0, y0, x1, y1 = s.edges
-        return [(x0, y0 + 0.65 * (y1 - y0) - half, x1, y0 + 0.65 * (y1 - y0) + half)]
+        middle = y0 + 0.66 * (y1 - y0)
+        return [(x0, middle - thickness / 2, x1, middle + thickness / 2)]
 
-    return upright, level
+    return draw
 
 
-def windows(
-    r: Recorder,
-    label: str,
-    on: str,
-    draw: Draw,
-    size: tuple[float, float],
-    gap: tuple[float, float],
-    depth: float = 0.15,
-) -> None:
+def windows(r: Recorder, label: str, on: str, draw: Draw, size: tuple[float, float], gap: tuple[float, float]) -> None:
     """A field of windows, pushed in, with sills: six operations."""
     r.place(label, on, draw, 5, size=size, gap=gap, fit=("repeat", "repeat"), max_per={on: 1})
-    r.recess(label, depth, f"{label} glass")
-    r.place(f"{label} sill", on, under(label, 0.08, 0.1, 0.0), 5)
-    r.attach(f"{label} sill", 0.1)
+    r.recess(label, REVEAL, f"{label} glass")
+    pane(r, label)
+
+
+def pane(r: Recorder, label: str, depth: float = REVEAL) -> None:
+    """The sill of every window, on its pane: three operations."""
+    r.place(f"{label} sill", f"{label} glass", along_bottom(0.08), 2, max_per={f"{label} glass": 1})
+    r.attach(f"{label} sill", depth + SILL)
+
+
+def bars(r: Recorder, label: str) -> None:
+    """An upright and a level bar on every pane: six operations."""
+    glass = f"{label} glass"
+    r.place(f"{label} upright", glass, upright_bar(0.06), 2, max_per={glass: 1})
+    r.place(f"{label} crossbar", glass, level_bar(0.06), 2, max_per={glass: 1})
+    r.attach(f"{label} upright", 0.04)
+    r.attach(f"{label} crossbar", 0.05)

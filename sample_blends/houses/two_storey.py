@@ -85,7 +85,7 @@ def path(s: Sheet) -> Sequence[Box]:
 def record(r: Recorder) -> None:
     """Record the operations on the plots of the recorder's scene."""
     r.place("house", PLOT, body, 5, max_per={PLOT: 1})
-    r.extrude("house", 5.8, (0.97, 1.05), roof=Roof("hip", PITCH, overhang=0.45), side="wall")
+    r.extrude("house", 5.8, roof=Roof("hip", PITCH, overhang=0.45), side="wall")
     with_garage, with_bay = r.select(PLOT, (1.0, 1.0))
     r.at = (with_garage,)
     r.place("garage", PLOT, garage, 4, max_per={PLOT: 1})
@@ -102,8 +102,8 @@ def record(r: Recorder) -> None:
     r.place("canopy", STREET, over("door", 0.35, 0.1, 0.25), 5, max_per={STREET: 1})
     r.attach("canopy", 1.0)
     windows(r, "window", STREET, ground_windows, (1.2, 1.4), (0.9, 1.0))
-    windows(r, "upper window", STREET, upper_windows, (1.2, 1.4), (1.0, 1.0))
-    bars(r, "upper window glass")
+    windows(r, "bedroom window", STREET, upper_windows, (1.2, 1.4), (1.0, 1.0))
+    bars(r, "bedroom window")
     front = "street garage wall"
     r.place("garage door", front, garage_door, 3, max_per={front: 1})
     r.recess("garage door", 0.2, "garage gate")
