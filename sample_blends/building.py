@@ -51,12 +51,14 @@ def run(
     edits: Sequence[AnyEdit],
     height: Callable[[AnyEdit], float] = lambda _: 0.0,
     finish: Callable[[bpy.types.Scene], None] = lambda _: None,
+    picture: tuple[int, int] = (1600, 1000),
     **view: float,
 ) -> None:
     """Command line of a scene: build it in an empty file, then make its edits, save and render as asked.
 
     ``build`` fills the scene and returns points (n, 3) that the camera must show, ``height`` says how high the example
-    of an edit stands, ``finish`` adds what follows from the edits; ``view`` goes to :func:`.stage.camera`.
+    of an edit stands, ``finish`` adds what follows from the edits, ``picture`` is the size of the picture in pixels;
+    ``view`` goes to :func:`.stage.camera`.
     """
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--output", type=Path, help="the .blend to write")
@@ -65,8 +67,8 @@ def run(
     parser.add_argument(
         "--examples-only", action="store_true", help="save the edits without their results: replay makes them"
     )
-    parser.add_argument("--width", type=int, default=1600)
-    parser.add_argument("--height", type=int, default=1000)
+    parser.add_argument("--width", type=int, default=picture[0])
+    parser.add_argument("--height", type=int, default=picture[1])
     parser.add_argument("--samples", type=int, default=32)
     parser.add_argument("--plan-view", action="store_true", help="look straight down, without perspective")
     # Blender passes what follows "--"; with the bpy wheel, all arguments are ours.

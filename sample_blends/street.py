@@ -19,7 +19,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from sample_blends import building, stage
 from sample_blends.edits.street import EDITS
 from sample_blends.library.meshes import add_solid, mesh_of
-from sample_blends.library.solids import Solid, box, joined, loft, sheet
+from sample_blends.library.solids import Solid, at_height, box, joined, loft, sheet
 from sample_blends.plans import street as plan
 from sample_blends.plans.outlines import rectangle
 
@@ -38,8 +38,8 @@ def body(house: plan.House) -> Solid:
     return joined((walls, loft(ends, house.roof), chimney))
 
 
-def dressed_ground(points: np.ndarray) -> list[tuple[str, Solid]]:
-    """The pavement along the facades, with its kerb, and the roadway."""
+def pavement() -> Solid:
+    """The pavement along the facades, with its kerb."""
     feet = []
     for house in plan.HOUSES:
         frame = plan.frames()[house.id]
@@ -49,8 +49,7 @@ def dressed_ground(points: np.ndarray) -> list[tuple[str, Solid]]:
     outer = max((strip, line.buffer(PAVEMENT, single_sided=True)), key=lambda s: -s.centroid.y)
     ring = shapely.get_coordinates(outer.exterior)[:-1]
     ring = ring if shapely.LinearRing(ring).is_ccw else ring[::-1]
-    slabs = loft([np.column_stack((ring, np.full(len(ring), z))) for z in (-KERB, 0.0)], "pavement")
-    return [("Pavement", slabs)]
+    return loft([at_height(ring, z) for z in (-KERB, 0.0)], "pavement")
 
 
 def build(scene: bpy.types.Scene) -> np.ndarray:
@@ -70,13 +69,12 @@ def build(scene: bpy.types.Scene) -> np.ndarray:
         walls.objects.link(facade)
         points += [frame @ facade.data.vertices[k].co for k in range(4)]
     corners = np.array(points)
-    for name, solid in dressed_ground(corners):
-        add_solid(name, solid, holder)
+    add_solid("Pavement", pavement(), holder)
     stage.light(scene)
     stage.ground(scene, corners, "granite", z=-KERB)
-    front, roofs = corners * (1.0, 1.0, 0.0) - np.array((0.0, PAVEMENT, 0.0)), corners + np.array((0.0, 1.0, 2.0))
+    front, roofs = corners * (1.0, 1.0, 0.0) - np.array((0.0, PAVEMENT / 2, 0.0)), corners + np.array((0.0, 1.0, 2.0))
     return np.vstack((corners, front, roofs))
 
 
 if __name__ == "__main__":
-    building.run(build, __doc__, EDITS, elevation=9.0, turn=-91.0, lens=40.0, margin=0.01)
+    building.run(build, __doc__, EDITS, picture=(1800, 640), elevation=7.0, turn=-92.0, lens=42.0, margin=0.01)

@@ -147,7 +147,7 @@ def rejected_steps(context: bpy.types.Context, items: Iterable[bpy.types.Object]
     Raises
     ------
     InputError
-        Where there are none, or their operation or its examples are gone.
+        Where there are none, or nothing can be learned any more.
     """
     tree = require_operations(context.scene)
     by_node: dict[str, list[str]] = {}
@@ -189,11 +189,6 @@ def forgotten_steps(context: bpy.types.Context, node: bpy.types.Node) -> Stepper
     -------
     generator of (float, str)
         Returns how many there were.
-
-    Raises
-    ------
-    InputError
-        Where its examples are gone.
     """
     if not works_everywhere(node):
         return forget_all(context, node)
@@ -211,12 +206,9 @@ def _again_steps(
     before = engine_node(node)
     examples = [shown(every, item) for item in examples_in(node, context.scene)]
     layouts = yield from within(incoming_everywhere_steps(every, node.name), 0.0, 0.3)
-    operation = before.operation
-    if examples:
-        operation = again(operation, every, layouts, examples, rejected)
-    elif rejected != rejected_by(node):
-        raise InputError(f"the examples of {node.name!r} are not in the scene; it cannot be learned again")
-    operation = replace(operation, decisions=decisions)
+    # Without its examples, as in a file that the tree was appended to, it stays as it was learned.
+    learned = again(before.operation, every, layouts, examples, rejected) if examples else before.operation
+    operation = replace(learned, decisions=decisions)
     wanted = Node(node.name, operation, before.inputs, before.muted)
     return (yield from _write_steps(context, every, layouts, wanted, node, placed_by(node), None, rejected))
 

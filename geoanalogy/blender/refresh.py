@@ -9,6 +9,7 @@ from ..operations.element import Element
 from ..operations.layout import Layout
 from ..operations.node import Node
 from ..operations.placing import Placing
+from ..operations.tree import OperationsTree
 from . import names, tree_types
 from .ground import Ground, read_grounds
 from .instances import write_results
@@ -78,11 +79,13 @@ def proposed_by(node: bpy.types.Node) -> tuple[Element, ...]:
     return read_proposals(node.get(names.RESULTS, ""), node.name)
 
 
-def stored_layouts(tree: bpy.types.NodeTree, ground: Ground) -> dict[str, Layout]:
+def stored_layouts(engine: OperationsTree, tree: bpy.types.NodeTree, ground: Ground) -> dict[str, Layout]:
     """What comes in to every node, by the stored proposals.
 
     Parameters
     ----------
+    engine : OperationsTree
+        All operations of the tree.
     tree : bpy.types.NodeTree
     ground : Ground
 
@@ -93,8 +96,7 @@ def stored_layouts(tree: bpy.types.NodeTree, ground: Ground) -> dict[str, Layout
     """
     incoming: dict[str, Layout] = {}
     outgoing: dict[str, Layout] = {}
-    every = ordered_nodes(tree)
-    for node in engine_tree(every).nodes:
+    for node in engine.nodes:
         elements = {e.id: e for link in node.inputs for e in outgoing[link.node].elements}
         incoming[node.id] = Layout(ground.scene, tuple(elements.values()))
         outgoing[node.id] = decided(node, proposed_by(tree.nodes[node.id]), incoming[node.id])
@@ -145,7 +147,8 @@ def stored_layout(scene: bpy.types.Scene, node: bpy.types.Node) -> list[tuple[Gr
     bpy.context.view_layer.update()
     grounds = read_grounds(scene, bpy.context.evaluated_depsgraph_get(), examples_of(node.id_data))
     chosen = grounds if works_everywhere(node) else [ground_for(grounds, plane_of(node))]
-    return [(ground, stored_layouts(node.id_data, ground)[node.name]) for ground in chosen]
+    engine = engine_tree(ordered_nodes(node.id_data))
+    return [(ground, stored_layouts(engine, node.id_data, ground)[node.name]) for ground in chosen]
 
 
 def layout_at(layouts: list[tuple[Ground, Layout]], e: Element) -> tuple[Ground, Layout] | None:

@@ -47,13 +47,13 @@ class House:
 
 
 HOUSES = (
-    House("house 1", 7.4, 2, "plaster ochre", "tile red", 14.0),
+    House("house 1", 7.4, 2, "plaster ochre", "tile orange", 14.0),
     House("house 2", 13.4, 4, "plaster rose", "roof slate", 14.0, 0.3),
-    House("house 3", 9.4, 3, "plaster sage", "tile red", 0.0),
+    House("house 3", 9.4, 3, "plaster sage", "tile orange", 0.0),
     House("house 4", 8.2, 3, "plaster cream", "tile brown", 0.0, -0.4),
     House("house 5", 11.8, 2, "plaster blue", "roof slate", 0.0, 0.4),
     House("house 6", 8.8, 4, "plaster brick", "tile brown", -16.0, 0.2),
-    House("house 7", 10.8, 3, "plaster grey", "tile red", -16.0, -0.3),
+    House("house 7", 10.8, 3, "plaster grey", "tile orange", -16.0, -0.3),
     House("house 8", 12.2, 2, "plaster ochre", "roof slate", -30.0),
 )
 

@@ -244,6 +244,12 @@ def test_an_appended_tree_places_on_the_walls_of_another_file(tmp_path):
         wanted.node_groups = [name]
     assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
     sills_stand(others, results())
+    # The examples stayed behind: a result can be rejected, but not learned from.
+    gone = activate(results()[3])["ga_key"]
+    before = {item["ga_key"] for item in results()}
+    assert bpy.ops.geoanalogy.reject(EXEC, True) == {"FINISHED"}
+    assert {item["ga_key"] for item in results()} == before - {gone}
+    assert len(operation().model.lesson.taught) == 3
 
 
 def test_sills_are_stretched_to_windows_of_other_widths():
