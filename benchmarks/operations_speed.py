@@ -16,7 +16,6 @@ from pathlib import Path
 import numpy as np
 
 import geoanalogy as ga
-from geoanalogy.geometry import boolean
 from geoanalogy.geometry.boolean import combined
 from geoanalogy.geometry.extrusion import extrude
 from geoanalogy.geometry.solid import Solid
@@ -116,7 +115,7 @@ def mass(seed: int, look: Callable[[Solid], object]) -> tuple[float, bool]:
 
 
 def _naively(solid: Solid) -> None:
-    boolean._known.clear()
+    solid.derived.clear()
     for face in np.unique(solid.face):
         solid.surfaces_of(int(face))
 

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Literal
-from weakref import WeakKeyDictionary
 
 import manifold3d
 import numpy as np
@@ -76,7 +75,7 @@ def combined(first: Solid, others: Sequence[tuple[Solid, Frame]], kind: Kind, pl
         tuple(faces),
     )
     if square:
-        _known[made] = result
+        made.derived["manifold"] = result
     return made
 
 
@@ -94,14 +93,11 @@ def is_square(plane: Frame) -> bool:
     return bool((np.abs(plane.axes - np.round(plane.axes)) < PARALLEL_AXES).all())
 
 
-#: What solids were made from: building it anew takes longer than a boolean.
-_known: WeakKeyDictionary[Solid, manifold3d.Manifold] = WeakKeyDictionary()
-
-
 def _manifold(solid: Solid) -> manifold3d.Manifold:
-    if solid not in _known:
-        _known[solid] = _built(solid.vertices, solid.triangles, solid.face)
-    return _known[solid]
+    """The solid as the library has it, kept with it: building it anew takes longer than a boolean."""
+    if "manifold" not in solid.derived:
+        solid.derived["manifold"] = _built(solid.vertices, solid.triangles, solid.face)
+    return solid.derived["manifold"]
 
 
 def _built(vertices: Array, triangles: NDArray[np.intp], face: NDArray[np.intp]) -> manifold3d.Manifold:

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import shapely
@@ -89,7 +90,7 @@ class Solid:
 
     @cached_property
     def _hash(self) -> int:
-        return hash(self.content)
+        return hash((self.vertices.tobytes(), len(self.triangles), len(self.faces)))
 
     @property
     def content(self) -> tuple[object, ...]:
@@ -115,6 +116,11 @@ class Solid:
         """Volume in cubed scene units; the normals point outwards where it is positive."""
         a, b, c = (self.vertices[self.triangles[:, i]] - self.vertices[:1] for i in range(3))
         return float(np.einsum("ij,ij->", np.cross(a, b), c) / 6)
+
+    @cached_property
+    def derived(self) -> dict[str, Any]:
+        """What others have made of the solid and keep with it, by name."""
+        return {}
 
     @cached_property
     def by_label(self) -> dict[str, tuple[int, ...]]:
