@@ -347,7 +347,22 @@ def _clear(outline, points):
         and (np.abs(distances[1] - distances[0]) > 1e-6).all()
         and (np.abs(ratio - np.round(ratio)) > 1e-6).all()
         and (centre > 1e-4).all()
+        and not _between_two_places(seen)
     )
+
+
+def _between_two_places(seen):
+    """Whether a point has two places that are nearest on one segment: rounding chooses between them."""
+    along, distance = seen._edges
+    e = seen.elements
+    place = e.edge_start[:, None] + (along / e.edge_length[:, None])[..., None] * e.edge_vector[:, None]
+    for segment in range(len(e.segment_length)):
+        own = e.edge_segment == segment
+        tied = distance[own] <= distance[own].min(axis=0) + 1e-6
+        first = place[own][tied.argmax(axis=0), np.arange(len(seen.points))]
+        if (np.abs(place[own] - first).max(axis=2) > 1e-5)[tied].any():
+            return True
+    return False
 
 
 @given(OUTLINES, PLACES, strategies.similarities(scales=(0.2, 5.0)))
