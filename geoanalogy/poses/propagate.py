@@ -49,7 +49,7 @@ MOST_CELLS = 4
 #: Grid spacing at least, in half-widths of level sets: finer grids find nothing that the refinement would not. The
 #: level sets that places of footprints are found with are wider.
 FINEST = 0.5
-FINEST_OF_FOOTPRINTS = 0.75
+FINEST_OF_FOOTPRINTS = 0.55
 
 
 class PoseModel:

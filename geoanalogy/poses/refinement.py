@@ -41,8 +41,8 @@ FALL = 0.7
 
 #: Leading candidates around which is looked for better places, and how far, in half-widths. Where samples disagree the
 #: importance has plateaus with narrow peaks; least squares settle anywhere on them. And the iterations that follow.
-PROBED = 4
-PROBES = (0.15, 0.4, 1.0, 2.0)
+PROBED = (4, 2)
+PROBES = (0.1, 0.3, 0.8, 2.0)
 AGAIN = range(2, ITERATIONS + 1)
 
 
@@ -112,7 +112,9 @@ def refine(
     )
     strong = Batch(importances, STRONG)
     rivals = _Rivals(importances, strong.unit, np.ones(len(importances)) if factor is None else np.array(factor))
-    found = _probe(strong, _descend(strong, start, range(ITERATIONS + 1), rivals))
+    found = _descend(strong, start, range(ITERATIONS + 1), rivals)
+    for most in PROBED:
+        found = _probe(strong, found, most)
     value = Batch(importances).importance(found.which, found.position, found.angle)
     return Refined(found.which, found.position, found.angle, value)
 
@@ -205,9 +207,9 @@ def _descend(batch: Batch, poses: Refined, iterations: range, rivals: _Rivals | 
     return best
 
 
-def _probe(batch: Batch, poses: Refined) -> Refined:
+def _probe(batch: Batch, poses: Refined, most: int) -> Refined:
     """Look around the leading poses for better ones, and go on from those."""
-    table = in_turn(poses.which, poses.value)[:, :PROBED]
+    table = in_turn(poses.which, poses.value)[:, :most]
     lead = np.sort(table[table >= 0])
     leading = poses.of(lead)
     c, s = np.cos(leading.angle), np.sin(leading.angle)
