@@ -1,14 +1,14 @@
 """Fit the table of certainty of placements to real layouts, and report it on layouts that were not fitted.
 
-    GEOANALOGY_DATA=… python benchmarks/placements_calibration.py [--write] [--facades N] [--rounds N]
+    GEOANALOGY_DATA=… python benchmarks/placements_calibration.py [--write] [--report] [--half 0|1] …
 
 Reads `cmp_facades`, `bubenec_city` and `r2v_floorplans` below the folder named by GEOANALOGY_DATA. Every layout gives
-a few cases: some rectangles of a label are shown, the others are to be found. Half of the layouts are fitted, the
-other half is reported. With ``--write`` the table is fitted to all and written where the engine finds it.
+a few cases: some rectangles of a label are shown, the others are to be found. With ``--report`` each half of the
+layouts is fitted, and reported on the other one. With ``--write`` the table is fitted to all, or with ``--half`` to
+every other layout alone, and written where the engine finds it.
 """
 
 import argparse
-import json
 import os
 import pathlib
 import pickle
@@ -21,205 +21,26 @@ from scipy.optimize import minimize
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 
 import geoanalogy as ga
+from benchmarks.placements_cases import every_case, rectangle
 from geoanalogy.placements import calibration, survey
 from geoanalogy.placements.arrangement import arrangement_of
 from geoanalogy.placements.boxes import union_overlap
 from geoanalogy.placements.candidates import predictions
 from geoanalogy.placements.evidence import AMONG, SINGLE, Company
+from geoanalogy.placements.one_each import ONE_EACH
 from geoanalogy.placements.selection import rescaled, useful_cut, without_overlaps
 
 TABLE = pathlib.Path(__file__).resolve().parent.parent / "geoanalogy" / "placements" / "calibration_table.py"
-PLACED = ("window", "sill", "balcony", "blind", "cornice", "door", "shop", "deco", "pillar")
 RIGHT = 0.5
-ROOM_CASES, DRAWN_CASES = 15, 120
-
-
-def ring(box):
-    x0, y0, x1, y1 = box
-    return [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
-
-
-def rectangle(box):
-    x0, y0, x1, y1 = box
-    return ga.Rectangle((x0 + x1) / 2, (y0 + y1) / 2, x1 - x0, y1 - y0)
-
-
-def facade_cases(path, rng):
-    """Cases of one facade: (layout, kind, scene, examples, boxes to find by parent id)."""
-    facade = json.loads(path.read_text())
-    rects = [r for r in facade["rects"] if r["box"][2] > r["box"][0] and r["box"][3] > r["box"][1]]
-    shown = np.array([r["box"] for r in rects if r["label"] == "facade"] or [(0, 0, facade["width"], facade["height"])])
-    whole = (*shown.min(axis=0)[:2], *shown.max(axis=0)[2:])
-    for label in PLACED:
-        boxes = np.array([r["box"] for r in rects if r["label"] == label], float).reshape(-1, 4)
-        counts = [k for k in (1, 2, 4, 6, 10) if len(boxes) >= max(8, k + 4)]
-        if not counts:
-            continue
-        polygons = [ga.Polygon(ring(whole), "facade", "facade", orientation=0.0)]
-        polygons += [
-            ga.Polygon(ring(r["box"]), r["label"], f"{i}", orientation=0.0)
-            for i, r in enumerate(rects)
-            if r["label"] not in ("facade", label)
-        ]
-        scene = ga.Scene(polygons)
-        common = label in ("window", "sill", "blind", "balcony", "cornice")
-        for k in counts if label == "window" else rng.choice([4, 4, 2, 6][: len(counts)], 2 if common else 1):
-            if k not in counts:
-                continue
-            order = rng.permutation(len(boxes))
-            examples, truth = boxes[order[:k]], boxes[order[k:]]
-            truth = truth[(union_overlap(truth, examples) <= 0.3).all(axis=1)]
-            if len(truth):
-                yield path.stem, f"{label} {k}", scene, [(scene, b) for b in examples], truth
-        k = 4 if len(boxes) >= 12 else 2
-        order = rng.permutation(len(boxes))
-        target, low, high = cropped(scene, whole, rng)
-        middle = (boxes[:, :2] + boxes[:, 2:]) / 2
-        truth = boxes[((middle >= low) & (middle <= high)).all(axis=1)]
-        if len(truth) >= 3:
-            yield path.stem, f"{label} {k} abroad", target, [(scene, b) for b in boxes[order[:k]]], truth
-
-
-def cropped(scene, whole, rng):
-    """Part of a facade as another facade: whatever was learned of its edges and columns does not hold there."""
-    size = np.subtract(whole[2:], whole[:2])
-    low = whole[:2] + size * rng.uniform(0, 0.4, 2)
-    high = whole[2:] - size * rng.uniform(0, 0.4, 2)
-    polygons = [ga.Polygon(ring((*low, *high)), "facade", "facade", orientation=0.0)]
-    for p in scene.polygons[1:]:
-        x0, y0, x1, y1 = p.bounds
-        cut = np.array([max(x0, low[0]), max(y0, low[1]), min(x1, high[0]), min(y1, high[1])])
-        inside = max(cut[2] - cut[0], 0) * max(cut[3] - cut[1], 0) / p.area if (cut[2:] > cut[:2]).all() else 0
-        if inside > 0.5:
-            polygons.append(ga.Polygon(ring(cut), p.label, p.id, orientation=0.0))
-    return ga.Scene(polygons), low, high
-
-
-def row_of_parents(parts, label, gap):
-    """Rooms or plots side by side: polygons and the boxes in them, moved."""
-    x, polygons, boxes = gap, [], []
-    for i, (outline, inner, box) in enumerate(parts):
-        shift = np.array([x, gap]) - np.min(outline, axis=0)
-        polygons.append(ga.Polygon(np.asarray(outline) + shift, label, f"p{i}", orientation=0.0))
-        for j, (points, name) in enumerate(inner):
-            polygons.append(ga.Polygon(np.asarray(points) + shift, name, f"p{i} {j}", parent=f"p{i}", orientation=0.0))
-        boxes.append(np.asarray(box) + np.tile(shift, 2))
-        x += np.ptp(np.asarray(outline)[:, 0]) + gap
-    return ga.Scene(polygons), np.array(boxes)
-
-
-def thin_strip(segment, outline, depth):
-    """An opening as a thin rectangle along the inner side of an outline."""
-    a, b = np.asarray(segment, float)
-    along = (b - a) / np.hypot(*(b - a))
-    inward = np.array([-along[1], along[0]])
-    if np.dot(np.mean(outline, axis=0) - (a + b) / 2, inward) < 0:
-        inward = -inward
-    return [a, b, b + depth * inward, a + depth * inward]
-
-
-def room_cases(path, rng):
-    """Fixtures in rooms: one of each kind per room, lengths in estimated metres."""
-    kinds = {"toilet": "restroom", "bathtub": "bathroom", "washing_basin": "washing_room", "cooking_counter": "kitchen"}
-    rooms = defaultdict(list)
-    for plan in json.loads(path.read_text()):
-        for room in plan["rooms"]:
-            for kind, label in kinds.items():
-                items = [f for f in room["furniture"] if f["label"] == kind]
-                if room["labels"] == [label] and len(items) == 1:
-                    scale = plan["scale_m_per_px"]
-                    outline = np.array(room["polygon"], float) * scale
-                    inner = [
-                        (thin_strip(np.array(s, float) * scale, outline, 0.1), "opening")
-                        for s in room["openings"]
-                        if np.hypot(*(np.subtract(*s))) * scale > 0.05
-                    ]
-                    rooms[kind].append((outline, inner, np.array(items[0]["box"], float).ravel() * scale))
-    for kind, label in kinds.items():
-        order = rng.permutation(len(rooms[kind]))
-        for n, start in enumerate(range(0, len(order) - 13, 8)[:ROOM_CASES]):
-            k = (2, 4, 6)[n % 3]
-            scene, boxes = row_of_parents([rooms[kind][i] for i in order[start : start + 8 + k]], label, 2.0)
-            yield f"{kind} {start}", f"{kind} {k}", scene, [(scene, b) for b in boxes[:k]], boxes[k:]
-
-
-def plot_cases(path, rng):
-    """Main buildings on plots, turned so that the street front lies below, in metres."""
-    plots = defaultdict(list)
-    for plot in json.loads(path.read_text())["plots"]:
-        if not plot["buildings"]:
-            continue
-        a, b = np.asarray(plot["front"], float)
-        if np.cross(b - a, np.mean(plot["polygon"], axis=0) - a) < 0:
-            a, b = b, a
-        angle = np.arctan2(*(b - a)[::-1])
-        turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-        outline, front = np.asarray(plot["polygon"]) @ turn, np.asarray(plot["front"]) @ turn
-        rect = np.asarray(max(plot["buildings"], key=lambda q: q["area"])["rect"]) @ turn
-        sides = rect[1] - rect[0], rect[2] - rect[1]
-        w, h = (np.hypot(*s) for s in sides)
-        if abs(sides[0][0]) < abs(sides[0][1]):
-            w, h = h, w
-        middle = rect.mean(axis=0)
-        half = np.array([w, h]) / 2
-        box = np.concatenate([middle - half, middle + half])
-        plots[plot["label"]].append((outline, [(thin_strip(front, outline, 0.3), "front")], box))
-    for label, some in plots.items():
-        for n in range(max(2, len(some) // 3)):
-            order = rng.permutation(len(some))[:9]
-            scene, boxes = row_of_parents([some[i] for i in order], label, 5.0)
-            if len(boxes) > 5:
-                yield f"{label} {n}", f"plot {label}", scene, [(scene, b) for b in boxes[:4]], boxes[4:]
-
-
-def drawn_street(rng):
-    """A street as one draws it: facades of regular windows; what belongs to every window or door, by label."""
-    off = rng.choice([0.0, 0.0, 0.01, 0.03])
-    size, step = rng.uniform((0.8, 1.2), (1.6, 2.0)), rng.uniform((2.4, 2.8), (3.6, 3.6))
-    polygons, placed, x = [], defaultdict(list), 0.0
-    gap, thick, over = rng.uniform(0.0, 0.4), rng.uniform(0.1, 0.4), rng.choice([0.0, rng.uniform(0.05, 0.3)])
-    for _ in range(rng.integers(2, 4)):
-        columns, rows = rng.integers(2, 7), rng.integers(1, 6)
-        wide = size * (rng.uniform(0.7, 1.5) if rng.random() < 0.4 else 1.0, 1.0)
-        width, height = columns * step[0] + 1, rows * step[1] + 3.2
-        polygons.append((0, "facade", (x, 0, x + width, height)))
-        door = x + rng.uniform(0.2, 0.8) * width
-        polygons.append((0, "door", (door - 0.6, 0, door + 0.6, 2.2)))
-        placed["lamp"].append((door + 0.8, 1.6, door + 1.0, 2.0))
-        for i in range(columns):
-            for j in range(rows):
-                a = np.array([x + 1 + step[0] * i, 3.6 + step[1] * j]) + rng.normal(0, 1, 2) * off
-                b = a + wide
-                placed["window"].append((*a, *b))
-                placed["sill"].append((a[0] - over, a[1] - gap - thick, b[0] + over, a[1] - gap))
-                placed["lintel"].append((a[0] - over, b[1] + 0.1, b[0] + over, b[1] + 0.1 + thick))
-                placed["blind"].append((a[0] - 0.3, a[1], a[0], b[1]))
-                if j % 2:
-                    placed["balcony"].append((a[0] - 0.4, a[1] - 0.2, b[0] + 0.4, a[1] + 0.8))
-        x += width + 3
-    moved = {label: np.array(b) + rng.normal(0, 1, (len(b), 4)) * off for label, b in placed.items()}
-    return polygons, moved
-
-
-def drawn_cases(rng, count):
-    """Drawn streets: one label to be found, some of the others shown."""
-    for n in range(count):
-        polygons, placed = drawn_street(rng)
-        label = str(rng.choice(["sill", "sill", "lintel", "blind", "balcony", "lamp", "window"]))
-        others = [
-            o for o in ("window", "sill", "lintel", "blind") if o != label and (o == "window" or rng.random() < 0.4)
-        ]
-        boxes = placed.get(label, np.zeros((0, 4)))
-        everything = [*polygons, *((0, o, b) for o in others for b in placed[o])]
-        scene = ga.Scene([ga.Polygon(ring(b), o, orientation=0.0) for _, o, b in everything])
-        k = int(rng.choice([1, 2, 3, 4, 6]))
-        if len(boxes) < k + 2:
-            continue
-        # All of one facade as often as of any: a rule that was learned here is used there.
-        order = np.argsort(boxes[:, 0], kind="stable") if rng.random() < 0.5 else np.arange(len(boxes))
-        shown = rng.permutation(order[: max(k, len(boxes) // 2)])[:k]
-        truth = np.delete(boxes, shown, axis=0)
-        yield f"drawn {n}", f"drawn {label}", scene, [(scene, boxes[i]) for i in shown], truth
+#: How sharply the choice among candidates follows their overlap with what is right.
+SHARPNESS = 15.0
+#: What a place that is right but for a mirroring is worth in rooms: which corner was taken is one choice of several.
+MIRRORED_WORTH = 0.4
+#: Of how many wrong candidates one is fitted, and how many steps a fit takes at most.
+THINNED, MOST_STEPS = 3, 150
+ROOMS = ("toilet", "bathtub", "washing_basin", "cooking_counter")
+#: The judgements by name, and the evidence of single candidates in each.
+JUDGEMENTS = {"at home": SINGLE, "abroad": SINGLE, "alone": SINGLE + ONE_EACH}
 
 
 def collected(cases):
@@ -230,37 +51,62 @@ def collected(cases):
             model = ga.learn_placement([ga.Example(s, rectangle(b)) for s, b in shown])
         except ga.InputError:  # all that is shown lies beyond the edge of the facade
             continue
-        lesson = model.lesson
-        found = []
-        for parent in (p for p in scene.polygons if p.label == model.label):
-            arrangement = arrangement_of(scene, parent, 0.0)
-            drawn = model._drawn(arrangement, model.shown_in(arrangement))[0]
-            here = truth[(union_overlap(truth, arrangement.parent_box[None])[:, 0] > 0)]
-            boxes, quick = survey.glance(lesson, arrangement, drawn, *predictions(lesson, arrangement))
-            quick_iou = union_overlap(boxes, truth).max(axis=1)
-            some = np.flatnonzero((quick_iou >= 0.4) | (np.arange(len(boxes)) % 8 == 0))
-            seen = survey.survey(lesson, arrangement, drawn, drawn)
-            found.append(
-                {
-                    "quick": quick[some],
-                    "quick_iou": quick_iou[some],
-                    "boxes": seen.boxes,
-                    "anchors": seen.company.anchors,
-                    "single": seen.single,
-                    "among": seen.among,
-                    "present": drawn,
-                    "iou": union_overlap(seen.boxes, truth) if len(seen.boxes) else np.zeros((0, len(truth))),
-                    "truth": len(here),
-                }
-            )
-        if not found:  # what contained the examples is not in the target
-            continue
-        out.append({"layout": layout, "kind": kind, "parts": found, "truth": len(truth), "one": lesson.one_each})
+        parents = [p for p in scene.polygons if p.label == model.label]
+        found = [part(model, arrangement_of(scene, parent, 0.0), truth, kind) for parent in parents]
+        if found:  # else what contained the examples is not in the target
+            out.append({"layout": layout, "kind": kind, "parts": found, "truth": len(truth)})
     return out
 
 
+def part(model, arrangement, truth, kind):
+    """Evidence of one arrangement."""
+    lesson = model.lesson
+    drawn = model._drawn(arrangement, model.shown_in(arrangement))[0]
+    here = truth[(union_overlap(truth, arrangement.parent_box[None])[:, 0] > 0)]
+    boxes, quick = survey.glance(lesson, arrangement, drawn, *predictions(lesson, arrangement))
+    quick_iou = union_overlap(boxes, truth).max(axis=1)
+    some = np.flatnonzero((quick_iou >= 0.4) | (np.arange(len(boxes)) % 16 == 0))
+    seen = survey.survey(lesson, arrangement, drawn, drawn)
+    found = {
+        "judge": "at home" if len(drawn) else "alone" if lesson.one_each else "abroad",
+        "quick": quick[some].astype(np.float32),
+        "quick_iou": quick_iou[some],
+        "boxes": seen.boxes,
+        "anchors": seen.company.anchors,
+        "single": seen.single.astype(np.float32),
+        "among": seen.among.astype(np.float32),
+        "present": drawn,
+        "iou": union_overlap(seen.boxes, truth).astype(np.float32),
+        "truth": len(here),
+    }
+    if found["judge"] == "alone" and len(here) and len(seen.boxes):
+        worth = union_overlap(seen.boxes, here)
+        if kind.split()[0] in ROOMS:
+            middle = np.tile(arrangement.parent_box[:2] + arrangement.parent_box[2:], 2)
+            ways = [here, *((middle - here[:, [2, 3, 0, 1]])[None] * w + here * (1 - w) for w in MIRRORINGS)]
+            mirrored = np.max([union_overlap(seen.boxes, np.asarray(w).reshape(-1, 4)) for w in ways], axis=0)
+            worth = (1 - MIRRORED_WORTH) * worth + MIRRORED_WORTH * mirrored
+        found["worth"] = worth.max(axis=1)
+    return found
+
+
+#: Which coordinates are mirrored: along x, along y, both.
+MIRRORINGS = np.array([(1, 0, 1, 0), (0, 1, 0, 1), (1, 1, 1, 1)], float)
+
+
+def limits_of(names):
+    """Evidence for and against has its sign; circumstances may have either."""
+    return [
+        (None, 0) if n in calibration.AGAINST else (None, None) if n in calibration.CIRCUMSTANCES else (0, None)
+        for n in names
+    ]
+
+
 def fitted(evidence, right, weight, names, ridge=1e-4):
-    """Weights of a logistic model whose evidence for and against has its sign."""
+    """Weights of a logistic model; of the many wrong candidates every `THINNED`-th stands for that many."""
+    some = (right > 0) | (np.arange(len(right)) % THINNED == 0)
+    weight = np.where(right > 0, 1, THINNED)[some] * weight[some]
+    evidence, right = evidence[some].astype(np.float64), right[some]
     scale = evidence.std(axis=0) + 1e-9
     z = evidence / scale
 
@@ -274,43 +120,74 @@ def fitted(evidence, right, weight, names, ridge=1e-4):
             np.append(z.T @ error + 2 * ridge * p[:-1], error.sum()),
         )
 
-    limits = [
-        (None, 0) if n in calibration.AGAINST else (None, None) if n in calibration.CIRCUMSTANCES else (0, None)
-        for n in names
-    ]
-    solved = minimize(loss, np.zeros(len(names) + 1), jac=True, method="L-BFGS-B", bounds=[*limits, (None, None)])
+    limits = [*limits_of(names), (None, None)]
+    solved = minimize(
+        loss, np.zeros(len(names) + 1), jac=True, method="L-BFGS-B", bounds=limits, options={"maxiter": MOST_STEPS}
+    )
     return calibration.Calibration(names, solved.x[:-1] / scale, float(solved.x[-1]))
 
 
-def fit(cases):
-    """The two judgements: at home and abroad."""
-    return tuple(
-        judgement(
-            [
-                {**c, "parts": parts}
-                for c in cases
-                if (parts := [p for p in c["parts"] if bool(len(p["present"])) == home])
-            ]
+def chosen(parts, names, ridge=1e-3):
+    """Weights of the odds of candidates among each other: those that overlap best with what is right."""
+    evidence = np.concatenate([np.hstack([p["single"], p["among"], p["settled"]]) for p in parts])
+    scale = evidence.std(axis=0) + 1e-9
+    z = evidence / scale
+    group = np.repeat(np.arange(len(parts)), [len(p["boxes"]) for p in parts])
+    first = np.flatnonzero(np.diff(group, prepend=-1))
+
+    def shares(value):
+        top = np.maximum.reduceat(value, first)
+        odds = np.exp(value - top[group])
+        return odds / np.add.reduceat(odds, first)[group], top
+
+    wanted, _ = shares(SHARPNESS * np.concatenate([p["worth"] for p in parts]))
+
+    def loss(p):
+        value = z @ p
+        odds, _ = shares(value)
+        error = (odds - wanted) / len(parts)
+        return (
+            float(-(wanted * np.log(odds + 1e-12)).sum() / len(parts) + ridge * (p**2).sum()),
+            z.T @ error + 2 * ridge * p,
         )
-        for home in (True, False)
+
+    solved = minimize(
+        loss,
+        np.zeros(len(names)),
+        jac=True,
+        method="L-BFGS-B",
+        bounds=limits_of(names),
+        options={"maxiter": MOST_STEPS},
     )
+    return calibration.Calibration(names, solved.x / scale, 0.0)
 
 
-def judgement(cases):
-    """The three models."""
-    stack = lambda key: np.concatenate([p[key] for c in cases for p in c["parts"]])  # noqa: E731
+def fit(cases):
+    """The judgements by name."""
+    models = {}
+    for name, single in JUDGEMENTS.items():
+        some = [{**c, "parts": [p for p in c["parts"] if p["judge"] == name]} for c in cases]
+        models[name] = judgement([c for c in some if c["parts"]], single)
+    return models
+
+
+def judgement(cases, single):
+    """The models of one judgement."""
+    parts = [p for c in cases for p in c["parts"]]
+    stack = lambda key: np.concatenate([p[key] for p in parts])  # noqa: E731
     weigh = lambda key: np.concatenate(  # noqa: E731
         [np.full(len(p[key]), min(1 / c["truth"], 0.1)) for c in cases for p in c["parts"]]
     )
-    glance = fitted(stack("quick"), (stack("quick_iou") >= RIGHT) * 1.0, weigh("quick"), SINGLE)
-    right = np.concatenate([(p["iou"].max(axis=1, initial=0.0) >= RIGHT) * 1.0 for c in cases for p in c["parts"]])
+    glance = fitted(stack("quick"), (stack("quick_iou") >= RIGHT) * 1.0, weigh("quick"), single)
+    right = np.concatenate([(p["iou"].max(axis=1, initial=0.0) >= RIGHT) * 1.0 for p in parts])
     first = np.hstack([stack("single"), stack("among")])
-    look = fitted(first, right, weigh("boxes"), SINGLE + AMONG)
-    for c in cases:
-        for p in c["parts"]:
-            settle_evidence(p, look)
-    settle = fitted(np.hstack([first, stack("settled")]), right, weigh("boxes"), SINGLE + AMONG + calibration.SETTLED)
-    return calibration.Judgement(glance, look, settle)
+    look = fitted(first, right, weigh("boxes"), single + AMONG)
+    for p in parts:
+        settle_evidence(p, look)
+    names = single + AMONG + calibration.SETTLED
+    settle = fitted(np.hstack([first, stack("settled")]), right, weigh("boxes"), names)
+    some = [p for p in parts if "worth" in p]
+    return calibration.Judgement(glance, look, settle, chosen(some, names) if some else None)
 
 
 def settle_evidence(part, look):
@@ -325,21 +202,27 @@ def settle_evidence(part, look):
 
 
 def f1(case, judgements, cuts):
-    """F1 of a case at several cuts of the certainty, and of the best cut; its share of found boxes among all."""
-    kept, iou, scores = [], [], []
+    """F1 of a case at several cuts, by default and at best; its share of boxes among the candidates; IoU of the one."""
+    kept, iou, scores, of_one = [], [], [], []
     for p in case["parts"]:
-        judge = judgements[0] if len(p["present"]) else judgements[1]
+        judge = judgements[p["judge"]]
         settle_evidence(p, judge.look)
-        certainty = judge.settle.certainty(np.hstack([p["single"], p["among"], p["settled"]]))
+        every = np.hstack([p["single"], p["among"], p["settled"]])
+        certainty = judge.settle.certainty(every)
+        if judge.choose is not None and len(certainty):
+            value = judge.choose.value(every)
+            best = np.argmax(union_overlap(p["boxes"], p["boxes"]) ** 2 @ np.exp(value - value.max()))
+            certainty[best] = certainty.max() * (1 + 1e-9)
+            if p["truth"]:
+                of_one.append(p["iou"][best].max())
         index = without_overlaps(p["boxes"], certainty, p["present"], 0.15)
         kept.append(certainty[index])
-        one = case["one"] and not len(p["present"])
-        scores.append(rescaled(certainty[index], useful_cut(certainty[index], one)))
+        scores.append(rescaled(certainty[index], useful_cut(certainty[index], p["judge"] == "alone")))
         iou.append(p["iou"][index])
     kept, iou, scores = np.concatenate(kept), np.concatenate(iou), np.concatenate(scores)
     order = np.argsort(-scores, kind="stable")
     kept, iou, scores = kept[order], iou[order], scores[order]
-    free = np.ones(case["truth"], bool)
+    free = np.ones(iou.shape[1], bool)
     hits = np.zeros(len(kept))
     for i in range(len(kept)):
         best = np.argmax(np.where(free, iou[i], 0))
@@ -349,30 +232,35 @@ def f1(case, judgements, cuts):
     at = [float(curve[(kept >= c).sum() - 1]) if (kept >= c).any() else 0.0 for c in cuts]
     at.append(float(curve[(scores >= 0.5).sum() - 1]) if (scores >= 0.5).any() else 0.0)
     reach = np.concatenate([p["iou"] for p in case["parts"]])
-    return [*at, float(curve.max(initial=0.0)), float((reach.max(axis=0, initial=0.0) >= RIGHT).mean())]
+    reached = float((reach.max(axis=0, initial=0.0) >= RIGHT).mean())
+    return [*at, float(curve.max(initial=0.0)), reached, float(np.mean(of_one)) if of_one else np.nan]
 
 
 def report(title, cases, models):
+    """Print a line per kind of case."""
     cuts = (0.2, 0.3, 0.4, 0.5)
     rows = defaultdict(list)
     for case in cases:
         rows[case["kind"]].append(f1(case, models, cuts))
-    print(f"{title}: mean F1 by cut, of the best cut, and share of boxes among the candidates")
-    print(f"  {'':18s} cases  " + "  ".join(f"{c:5.2f}" for c in cuts) + "  default   best  reach")
+    print(f"{title}: mean F1 by cut, of the best cut, share of boxes among the candidates, IoU where there is one each")
+    print(f"  {'':18s} cases  " + "  ".join(f"{c:5.2f}" for c in cuts) + "  default   best  reach    IoU")
     for kind in sorted(rows):
         print(f"  {kind:18s} {len(rows[kind]):5d}  " + "  ".join(f"{v:5.3f}" for v in np.mean(rows[kind], axis=0)))
 
 
 def written(models):
+    """Write the table where the engine finds it."""
     rows = [
-        '"""Weights of the logistic models of `calibration` by evidence; a benchmark writes this file."""',
+        '"""Weights of the models of `calibration` by evidence; a benchmark writes this file."""',
         "",
         "TABLE: dict[str, dict[str, dict[str, float]]] = {",
     ]
-    for place, judge in zip(("at home", "abroad"), models, strict=True):
+    for place, judge in models.items():
         rows.append(f'    "{place}": {{')
-        for stage in ("glance", "look", "settle"):
+        for stage in ("glance", "look", "settle", "choose"):
             model = getattr(judge, stage)
+            if model is None:
+                continue
             rows += [f'        "{stage}": {{', f'            "offset": {model.offset:.4f},']
             rows += [
                 f'            "{n}": {w:.4f},'
@@ -385,15 +273,20 @@ def written(models):
 
 
 def use(models):
-    survey.AT_HOME, survey.ABROAD = models
+    """Let the engine collect candidates with these models."""
+    survey.AT_HOME, survey.ABROAD, survey.ALONE = (models[name] for name in JUDGEMENTS)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+    """Collect, fit, report, write."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--facades", type=int, help="at most so many")
     parser.add_argument("--rounds", type=int, default=2, help="how often candidates are collected anew")
     parser.add_argument("--write", action="store_true")
+    parser.add_argument("--half", type=int, choices=(0, 1), help="fit the written table to every other layout alone")
+    parser.add_argument("--report", action="store_true", help="fit each half and report it on the other one")
     parser.add_argument("--keep", help="write the collected evidence to this file")
+    parser.add_argument("--kept", help="read it from this file instead of collecting it")
     parser.add_argument("--seed", type=int, default=5)
     args = parser.parse_args()
     root = os.environ.get("GEOANALOGY_DATA")
@@ -404,26 +297,24 @@ def main():
     paths = sorted((root / "cmp_facades" / "dev").glob("*.json"))
     if args.facades:
         paths = paths[:: max(1, len(paths) // args.facades)]
-
-    def cases():
-        rng = np.random.default_rng(args.seed)
-        for path in paths:
-            yield from facade_cases(path, rng)
-        yield from room_cases(root / "r2v_floorplans" / "dev" / "plans.json", rng)
-        yield from plot_cases(root / "bubenec_city" / "dev" / "scene.json", rng)
-        yield from drawn_cases(rng, DRAWN_CASES)
-
-    for turn in range(args.rounds):
-        every = collected(cases())
+    for turn in range(1 if args.kept else args.rounds):
+        if args.kept:
+            every = pickle.loads(pathlib.Path(args.kept).read_bytes())
+        else:
+            every = collected(every_case(root, paths, args.seed))
         if args.keep:
             pathlib.Path(args.keep).write_bytes(pickle.dumps(every))
         layouts = sorted({c["layout"] for c in every})
-        some = set(layouts[::2])
-        models = fit([c for c in every if c["layout"] in some])
-        report(f"round {turn + 1}, fitted half", [c for c in every if c["layout"] in some], models)
-        report(f"round {turn + 1}, other half", [c for c in every if c["layout"] not in some], models)
-        sys.stdout.flush()
-        models = fit(every)
+        halves = [set(layouts[::2]), set(layouts[1::2])]
+        for i, half in enumerate(halves):
+            if not args.report and args.half != i:
+                continue
+            models = fit([c for c in every if c["layout"] in half])
+            report(f"round {turn + 1}, not fitted half {1 - i}", [c for c in every if c["layout"] not in half], models)
+            sys.stdout.flush()
+            if args.half == i:
+                of_half = models
+        models = fit(every) if args.half is None else of_half
         use(models)
     if args.write:
         written(models)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from .calibration_table import TABLE
 from .evidence import AMONG, SINGLE
+from .one_each import ONE_EACH
 
 Array = NDArray[np.float64]
 
@@ -27,12 +28,18 @@ AGAINST = frozenset(
         "missed anchor",
         "missed along x",
         "missed along y",
+        "misaligned along x",
+        "misaligned along y",
         "shape",
         "beyond shapes",
         "covered",
         "uncovered",
         "touched",
         "outside",
+        "relative size",
+        "nearer",
+        "freed",
+        "off walls",
     )
 )
 #: What is the same for all candidates of an arrangement: its weight may have either sign.
@@ -86,7 +93,7 @@ class Calibration:
 
 @dataclass(frozen=True)
 class Judgement:
-    """The three models that rate candidates, one after another.
+    """The models that rate candidates, one after another.
 
     Attributes
     ----------
@@ -96,30 +103,42 @@ class Judgement:
         From all relations of a candidate.
     settle : Calibration
         Together with what else is likely in its row, its column and its place.
+    choose : Calibration or None
+        Where there is one placement: which of the candidates it is. Odds among each other, not of each.
     """
 
     glance: Calibration
     look: Calibration
     settle: Calibration
+    choose: Calibration | None = None
 
     @classmethod
-    def of(cls, table: dict[str, dict[str, float]]) -> "Judgement":
+    def of(cls, table: dict[str, dict[str, float]], single: tuple[str, ...] = SINGLE) -> "Judgement":
         """The models of a table of weights by the name of the evidence.
 
         Parameters
         ----------
         table : dict of str to dict of str to float
+        single : tuple of str
+            Names of the evidence of a single candidate.
 
         Returns
         -------
         Judgement
         """
-        stages = (("glance", SINGLE), ("look", SINGLE + AMONG), ("settle", SINGLE + AMONG + SETTLED))
+        names = {
+            "glance": single,
+            "look": single + AMONG,
+            "settle": single + AMONG + SETTLED,
+            "choose": single + AMONG + SETTLED,
+        }
         return cls(
-            *(
-                Calibration(names, np.array([table[stage].get(n, 0.0) for n in names]), table[stage]["offset"])
-                for stage, names in stages
-            )
+            **{
+                stage: Calibration(
+                    names[stage], np.array([weights.get(n, 0.0) for n in names[stage]]), weights["offset"]
+                )
+                for stage, weights in table.items()
+            }
         )
 
 
@@ -127,3 +146,5 @@ class Judgement:
 AT_HOME = Judgement.of(TABLE["at home"])
 #: Where they were drawn elsewhere: only relations to what is there can tell.
 ABROAD = Judgement.of(TABLE["abroad"])
+#: Where every parent holds one of them.
+ALONE = Judgement.of(TABLE.get("alone", TABLE["abroad"]), SINGLE + ONE_EACH)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from .arrangement import PARENT, Arrangement
 from .lesson import Lesson
+from .regularity import beats, mirrored_extents, rhythm
 from .signature import BOX, PARENT_BOX
 from .turns import flipped
 
@@ -29,10 +30,10 @@ WAYS = 3
 EQUAL = 1e-4
 #: How many of the most predicted extents are crossed, along x and along y.
 CROSSED = (30, 20)
-#: Distance of their middles, in sizes, within which two boxes stand in one row.
-SAME_ROW = 0.35
+#: How many of the surest beats of rhythms are crossed.
+BEATS_CROSSED = 24
 #: Largest factor by which a candidate's side may differ from all the examples'.
-LARGEST_STRETCH = 3.0
+LARGEST_STRETCH = 5.0
 
 
 def extents(values: Array, low: Array, high: Array) -> Array:
@@ -259,7 +260,12 @@ def _centre(arrangement: Arrangement) -> Array:
 
 
 def proposals(
-    lesson: Lesson, arrangement: Arrangement, present: Array, boxes: Array, repeats: NDArray[np.intp]
+    lesson: Lesson,
+    arrangement: Arrangement,
+    present: Array,
+    boxes: Array,
+    repeats: NDArray[np.intp],
+    copied: Array | None = None,
 ) -> Array:
     """Every candidate that is worth a look: the predictions that differ, and crossings of their extents.
 
@@ -272,6 +278,8 @@ def proposals(
         Positive examples that were drawn in this very arrangement.
     boxes, repeats : ndarray of shape (n, 4) and (n,)
         See `predictions`.
+    copied : ndarray of shape (k, 4), optional
+        More candidates.
 
     Returns
     -------
@@ -279,14 +287,18 @@ def proposals(
     """
     centre = _centre(arrangement)
     size = lesson.sizes[lesson.positive].mean(axis=0)
+    if copied is not None:
+        copied = copied[_plausible(copied, lesson.sizes[lesson.positive])]
+        boxes = np.concatenate([boxes, copied])
+        repeats = np.concatenate([repeats, np.ones(len(copied), dtype=np.intp)])
     cell = CANDIDATE_CELL * np.tile(size, 2)
     found = distinct(boxes - centre, repeats, cell)
-    more = crossed(found, present - centre, size)
+    more = crossed(found, present - centre, size, arrangement.parent_box - centre)
     first = np.repeat([1, 0], [len(found), len(more)])  # what was predicted stays as it is
     return distinct(np.concatenate([found, more]), first, cell) + centre
 
 
-def crossed(boxes: Array, present: Array, size: Array) -> Array:
+def crossed(boxes: Array, present: Array, size: Array, parent: Array) -> Array:
     """The most predicted extents along x crossed with those along y, and with the rows and columns of examples there.
 
     Parameters
@@ -295,6 +307,8 @@ def crossed(boxes: Array, present: Array, size: Array) -> Array:
     present : ndarray of shape (m, 4)
     size : ndarray of shape (2,)
         The examples' mean.
+    parent : ndarray of shape (4,)
+        The parent's box.
 
     Returns
     -------
@@ -303,8 +317,7 @@ def crossed(boxes: Array, present: Array, size: Array) -> Array:
     x, y = (
         np.concatenate(
             [
-                present[:, [axis, axis + 2]],
-                rhythm(present[:, [axis, axis + 2]]),
+                continued(present[:, [axis, axis + 2]], parent[axis], parent[axis + 2]),
                 most_predicted(boxes[:, axis], boxes[:, axis + 2], EXTENT_CELL * size[axis], CROSSED[axis]),
             ]
         )
@@ -313,57 +326,25 @@ def crossed(boxes: Array, present: Array, size: Array) -> Array:
     return crossings(x, y)
 
 
-def rhythm(extents_along: Array) -> Array:
-    """Where rows (or columns) go on: the steps between neighbouring rows repeated outwards, halved and thirded.
-
-    A facade shows ten windows of three of its six floors; the floors between and above them are where the others are.
+def continued(present: Array, low: float, high: float) -> Array:
+    """Extents of rows (or columns) that examples stand in, and of those that follow from them.
 
     Parameters
     ----------
-    extents_along : ndarray of shape (n, 2)
-        Low and high edges of examples along one axis.
+    present : ndarray of shape (m, 2)
+        Low and high edges of the examples.
+    low, high : float
+        Extent of the parent.
 
     Returns
     -------
-    ndarray of shape (m, 2)
-        Extents of rows that no example stands in.
+    ndarray of shape (n, 2)
     """
-    rows = rows_of(extents_along)
-    if len(rows) < 2:
-        return np.zeros((0, 2))
-    middle, size = rows.mean(axis=1), rows[:, 1] - rows[:, 0]
-    steps = np.diff(middle)
-    found = []
-    for i, step in enumerate(steps):
-        parts = [n for n in (2, 3) if step / n > min(size[i], size[i + 1])]
-        for n in parts:
-            found += [(middle[i] + step * j / n, size[i] if 2 * j <= n else size[i + 1]) for j in range(1, n)]
-        for part in [step, *(step / n for n in parts)]:
-            found += [(middle[0] - part, size[0]), (middle[-1] + part, size[-1])]
-    at, of = np.array(found).T
-    free = (np.abs(at[:, None] - middle[None]) > SAME_ROW * of[:, None]).all(axis=1)
-    return np.stack([at - of / 2, at + of / 2], axis=1)[free]
-
-
-def rows_of(extents_along: Array) -> Array:
-    """Mean extents of rows: neighbours whose middles are nearer than a part of their size are one; ascending.
-
-    Parameters
-    ----------
-    extents_along : ndarray of shape (n, 2)
-
-    Returns
-    -------
-    ndarray of shape (r, 2)
-    """
-    if not len(extents_along):
-        return extents_along
-    middle = extents_along.mean(axis=1)
-    order = np.argsort(middle, kind="stable")
-    limit = SAME_ROW * (extents_along[:, 1] - extents_along[:, 0]).mean()
-    number = np.concatenate([[0], np.cumsum(np.diff(middle[order]) > limit)])
-    count = np.bincount(number)[:, None]
-    return np.stack([np.bincount(number, column) for column in extents_along[order].T], axis=1) / count
+    if not len(present):
+        return present
+    at, trust = beats(present, low, high)
+    surest = at[np.argsort(-trust, kind="stable")[:BEATS_CROSSED]]
+    return np.concatenate([present, rhythm(present), mirrored_extents(present, low, high), surest])
 
 
 def _plausible(boxes: Array, sizes: Array) -> NDArray[np.bool_]:

@@ -6,11 +6,12 @@ from numpy.typing import NDArray
 from ..relations.table import Kind
 from .arrangement import Arrangement
 from .boxes import distances, interval_overlap, overlap
-from .candidates import rhythm
 from .lesson import Lesson, Match
+from .regularity import alignment, beats, mirrored_extents, on_beat, rhythm
 from .signature import BOX, PARENT_BOX, Signature
 from .similarity import SIGMA
 from .taught import coverage
+from .turns import parent_sizes
 
 Array = NDArray[np.float64]
 
@@ -51,6 +52,15 @@ SINGLE = (
     "mean column",
     "rhythm along x",  # stands in a column of an example, or where columns of examples go on
     "rhythm along y",
+    "beat along x",  # keeps a regular distance that the examples' columns keep, times the trust in it
+    "beat along y",
+    "on both beats",
+    "mirrored along x",  # where the examples' columns are, mirrored about the parent's middle
+    "mirrored along y",
+    "aligned along x",  # its column is that of elements which the examples' columns are those of
+    "aligned along y",
+    "misaligned along x",
+    "misaligned along y",
     "reliability",  # of the examples' best group; the same for all candidates
     "reliability along x",
     "reliability along y",
@@ -108,17 +118,17 @@ def single_evidence(
     similarity = lesson.similarities(matches)[:, p]
     keys = [key for key in matches if key != PARENT_BOX]
     reliable = np.array([lesson.reliability[key] for key in keys]).reshape(-1, 3)
-    joint = np.array([matches[key].joint[:, p].max(axis=1) for key in keys]).reshape(-1, n).T
+    joint = np.array([matches[key].joint[:, p].max(axis=1) for key in keys]).reshape(len(keys), n).T
     of_boxes = [i for i, key in enumerate(keys) if matches[key].of_boxes]
     x, y = (
-        np.array([getattr(matches[keys[i]], name)[:, p].max(axis=1) for i in of_boxes]).reshape(-1, n).T
+        np.array([getattr(matches[keys[i]], name)[:, p].max(axis=1) for i in of_boxes]).reshape(len(of_boxes), n).T
         for name in ("along_x", "along_y")
     )
     rx, ry, rj = reliable[of_boxes, 0], reliable[of_boxes, 1], reliable[:, 2]
     parent = matches[PARENT_BOX]
     in_parent = lesson.reliability[PARENT_BOX]
     habit, explained = lesson.habits.kept_to(seen)
-    like = _like_parents(lesson, arrangement)
+    like = like_parents(lesson, arrangement)
     size = np.log(boxes[:, 2:] - boxes[:, :2])
     taught_size = np.log(lesson.sizes[p])
     covered, uncovered, touched = _overlaps(lesson, arrangement, boxes)
@@ -126,6 +136,7 @@ def single_evidence(
     rows = columns = np.zeros((n, 1))
     if len(present):
         rows, columns = interval_overlap(boxes, present, 1), interval_overlap(boxes, present, 0)
+    beat, mirror, aligned, missed = _lines(arrangement, boxes, present)
     best = similarity.max(axis=1)
     figures = {
         "similarity": best,
@@ -163,6 +174,15 @@ def single_evidence(
         "mean column": columns.mean(axis=1),
         "rhythm along x": np.maximum(columns.max(axis=1), _rhythm(boxes, present, 0)),
         "rhythm along y": np.maximum(rows.max(axis=1), _rhythm(boxes, present, 1)),
+        "beat along x": beat[0],
+        "beat along y": beat[1],
+        "on both beats": np.minimum(np.maximum(beat[0], columns.max(axis=1)), np.maximum(beat[1], rows.max(axis=1))),
+        "mirrored along x": mirror[0],
+        "mirrored along y": mirror[1],
+        "aligned along x": aligned[0],
+        "aligned along y": aligned[1],
+        "misaligned along x": missed[0],
+        "misaligned along y": missed[1],
         "reliability": np.full(n, rj.max(initial=0.0)),
         "reliability along x": np.full(n, rx.max(initial=0.0)),
         "reliability along y": np.full(n, ry.max(initial=0.0)),
@@ -173,6 +193,25 @@ def single_evidence(
     return np.stack([figures[name] for name in SINGLE], axis=1)
 
 
+def _lines(arrangement: Arrangement, boxes: Array, present: Array) -> tuple[list[Array], ...]:
+    """On a beat, mirrored, aligned and misaligned, each along x and y."""
+    found: tuple[list[Array], ...] = ([], [], [], [])
+    for axis in (0, 1):
+        values = [np.zeros(len(boxes))] * 4
+        if len(present):
+            low, high = arrangement.parent_box[axis], arrangement.parent_box[axis + 2]
+            along = present[:, [axis, axis + 2]]
+            mirrored = np.repeat(mirrored_extents(along, low, high), 2, axis=1)
+            values = [
+                on_beat(boxes, axis, *beats(along, low, high)),
+                interval_overlap(boxes, mirrored, axis).max(axis=1),
+                *alignment(boxes, present, arrangement.drawn, axis),
+            ]
+        for kept, value in zip(found, values, strict=True):
+            kept.append(value)
+    return found
+
+
 def _rhythm(boxes: Array, present: Array, axis: int) -> Array:
     """Overlap of each box's extent along an axis with the best of those where the rows of examples go on."""
     beats = rhythm(present[:, [axis, axis + 2]])
@@ -181,10 +220,20 @@ def _rhythm(boxes: Array, present: Array, axis: int) -> Array:
     return interval_overlap(boxes, np.repeat(beats, 2, axis=1), axis).max(axis=1)
 
 
-def _like_parents(lesson: Lesson, arrangement: Arrangement) -> Array:
-    """How much each positive example counts in a parent, shape (m,), by the proportions of its own; the sum is 1."""
-    edges = lesson.kept.boxes[PARENT_BOX][lesson.positive, 0]
-    taught = np.log(edges[:, :, 0, 0] - edges[:, :, 0, 1])  # width and height: from the minimum less from the maximum
+def like_parents(lesson: Lesson, arrangement: Arrangement) -> Array:
+    """How much each positive example counts in a parent, by the proportions of its own.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    arrangement : Arrangement
+
+    Returns
+    -------
+    ndarray of shape (m,)
+        The sum is 1.
+    """
+    taught = np.log(parent_sizes(lesson.kept)[lesson.positive])
     here = np.log(arrangement.parent_box[2:] - arrangement.parent_box[:2])
     off = taught - here
     aspect, size = off[:, 0] - off[:, 1], off.mean(axis=1)

@@ -9,8 +9,11 @@ from .signature import PARENT_BOX, Signature
 
 Array = NDArray[np.float64]
 
-#: Scatter of a coordinate below which examples agree in it exactly, in widths of the Gaussians.
+#: Scatter of a coordinate below which examples agree in it, and differences from it that hardly count, in widths of
+#: the Gaussians.
 HABIT_FLOOR = 0.3
+#: The same for what is constructed and not drawn by eye: rounding, and nothing else.
+CONSTRUCTED = 1e-3
 
 
 @dataclass(frozen=True)
@@ -88,3 +91,35 @@ class Habits:
             kept += (habit.weight * agreement).sum(axis=3)
             explained = np.maximum(explained, (tight * agreement).max(axis=3))
         return kept, np.where(exact, explained, 1.0)
+
+    def constructed(self, seen: Signature) -> Array:
+        """How exactly boxes keep to an element that the examples keep to exactly with all four edges.
+
+        What is snapped to a window by a rule has the same offsets at every window, to the last digit; where that is so,
+        a box with other offsets does not follow the rule, however much else is alike. Nothing that is drawn by eye
+        keeps so exactly to anything.
+
+        Parameters
+        ----------
+        seen : Signature
+            Of n boxes.
+
+        Returns
+        -------
+        ndarray of shape (n,)
+            Between 0 and 1, for the element that fits best; NaN where the examples keep exactly to none.
+        """
+        best, found = np.zeros(len(seen.boxes[PARENT_BOX])), False
+        for key, habit in self.of.items():
+            exact = habit.scatter <= CONSTRUCTED * self.widths
+            if not exact.any(axis=2).all():
+                continue
+            found = True
+            if key not in seen.boxes:
+                continue
+            edges = seen.boxes[key][:, 0][:, :, [0, 2]]
+            off = edges - habit.middle
+            off[..., 3] *= edges[..., 0] - edges[..., 1]
+            agreement = np.nan_to_num(np.exp(-0.5 * (off / (HABIT_FLOOR * self.widths)) ** 2))
+            best = np.maximum(best, (exact * agreement).max(axis=3).min(axis=(1, 2)))
+        return best if found else np.full(len(best), np.nan)

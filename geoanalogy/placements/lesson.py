@@ -26,6 +26,10 @@ PRIOR_RELIABILITY = 0.7
 LEAST_BETWEEN = 0.75
 
 
+#: Share of its weight that a relation keeps which tells examples and counter-examples not apart at all.
+LEAST_APART = 0.02
+
+
 @dataclass(frozen=True)
 class Match:
     """How the elements of one group around boxes agree with those around examples.
@@ -58,14 +62,20 @@ class Lesson:
     kept : Signature
         Feature vectors of the examples, in the same order.
     options : PlacementOptions
+    contrasting : bool
+        Whether only that counts which tells positive examples and counter-examples apart.
     """
 
-    def __init__(self, taught: list[Taught], kept: Signature, options: PlacementOptions) -> None:
+    def __init__(
+        self, taught: list[Taught], kept: Signature, options: PlacementOptions, contrasting: bool = False
+    ) -> None:
         self.taught = taught
         self.kept = kept
         self.options = options
+        self.contrasting = contrasting
         self.targets = np.array([t.target for t in taught])
         self.positive = np.flatnonzero(self.targets > 0)
+        self.negative = np.flatnonzero(self.targets == 0)
         self.sizes = np.array([t.size for t in taught])
         self.widths = length_widths(self.sizes[self.positive], options.tau)
 
@@ -106,10 +116,32 @@ class Lesson:
         matter and those to another not. With a single example all keep theirs.
         """
         half = len(self.positive) // 2  # of the others, rounded up
-        return {
-            key: self._counts(key, values) * self.agreement(key, max(half, 1))
-            for key, values in (self.kept.boxes | self.kept.outlines).items()
-        }
+        found = {}
+        for key, values in (self.kept.boxes | self.kept.outlines).items():
+            found[key] = self._counts(key, values) * self.agreement(key, max(half, 1))
+            if self.contrasting:
+                found[key] *= self._apart(key)
+        return found
+
+    @cached_property
+    def contrast(self) -> "Lesson":
+        """The same lesson, in which relations count by how well they tell examples from counter-examples.
+
+        What both have in common, however many relations that are, says nothing of which of them a placement is like;
+        itself where there are no counter-examples.
+        """
+        return Lesson(self.taught, self.kept, self.options, contrasting=True) if len(self.negative) else self
+
+    def _apart(self, key: str) -> Array:
+        """How badly every relation of every example agrees with its counterparts around the examples of the other sign.
+
+        In the shape of what is kept of the group; never nothing, so that examples that are all alike stay alike.
+        """
+        values = (self.kept.boxes | self.kept.outlines)[key]
+        apart = np.ones_like(values)
+        for own, others in ((self.targets > 0, self.negative), (self.targets == 0, self.positive)):
+            apart[own] -= self._agreement_with(key, others)[own].max(axis=1)
+        return np.maximum(apart, LEAST_APART)
 
     def agreement(self, key: str, most: int) -> Array:
         """How well every relation of every example agrees with its counterparts around the other positive examples.
@@ -130,14 +162,19 @@ class Lesson:
         p = self.positive
         if len(p) < 2:
             return np.ones_like(values)
-        agreement = self._agreement(key, values, values[p])
+        matched = self._agreement_with(key, p)
+        matched[np.arange(len(values))[:, None] == p[None]] = -1.0
+        return np.sort(matched, axis=1)[:, -min(most, len(p) - 1) :].mean(axis=1)
+
+    def _agreement_with(self, key: str, others: NDArray[np.intp]) -> NDArray[Any]:
+        """Agreement of every relation of every example with its counterpart around some of the examples: (m, k, …)."""
+        values = (self.kept.boxes | self.kept.outlines)[key]
+        agreement = self._agreement(key, values, values[others])
         rest = _REST[values.ndim]
         utility = np.einsum(f"nmpq{rest},{rest}->nmpq", agreement, self._counts(key, values))
         column = best_assignment(utility.astype(np.float64))[1]
         index = column.reshape(*column.shape, 1, *(1,) * (agreement.ndim - 4))
-        matched = np.take_along_axis(agreement, index, axis=3)[:, :, :, 0]
-        matched[np.arange(len(values))[:, None] == p[None]] = -1.0
-        return np.sort(matched, axis=1)[:, -min(most, len(p) - 1) :].mean(axis=1)
+        return np.take_along_axis(agreement, index, axis=3)[:, :, :, 0]
 
     def _counts(self, key: str, values: Array) -> Array:
         """How many samples each relation of a group stands for, as a share of all samples."""

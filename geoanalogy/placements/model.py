@@ -30,6 +30,8 @@ Array = NDArray[np.float64]
 
 #: Arrangements whose candidates a model remembers: those on the screen, not those of a city.
 SURVEYS_KEPT = 64
+#: By how much the certainty of the one placement of a parent exceeds that of all others: it goes before them.
+FOREMOST = 1 + 1e-9
 #: What a stored model calls its form.
 SCHEMA = "geoanalogy.placement/1"
 
@@ -246,7 +248,7 @@ class PlacementModel:
         lesson = self.lesson
         if not len(seen.boxes):
             return np.zeros(0)
-        target = predicted_targets(seen.similarities, lesson.gram, lesson.targets)
+        target = predicted_targets(seen.contrast, lesson.contrast.gram, lesson.targets)
         shape = shape_factor(
             seen.boxes[:, 2:] - seen.boxes[:, :2],
             lesson.sizes[lesson.positive],
@@ -254,8 +256,12 @@ class PlacementModel:
             self.options.area_tolerance,
         )
         certainty = np.clip(seen.certainty * shape, 0.0, 1.0)
-        apart = without_overlaps(seen.boxes, certainty, drawn, self.options.allow_overlaps)
-        return rescaled(certainty, useful_cut(certainty[apart], lesson.one_each and not len(drawn))) * target
+        if seen.chosen is not None:
+            certainty[seen.chosen] = certainty.max() * FOREMOST
+        wanted = certainty * target / lesson.targets.max()  # what is like a counter-example is no use at all
+        apart = without_overlaps(seen.boxes, wanted, drawn, self.options.allow_overlaps)
+        cut = useful_cut(wanted[apart], lesson.one_each and not len(drawn))
+        return np.minimum(rescaled(certainty, cut), 1.0) * target
 
     def _faces(self, arrangement: Arrangement, boxes: Array) -> NDArray[np.bool_]:
         """Whether the segment nearest to each box is one that the arrangement's frame belongs to."""

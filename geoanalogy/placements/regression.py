@@ -7,7 +7,7 @@ Array = NDArray[np.float64]
 
 #: Least eigenvalue of a gram matrix, as a share of its largest: it takes the place of the regularisation λ of eq. 5.6.
 #: Where examples differ by more than that, an example's score is its target, which λ would spoil.
-LEAST_EIGENVALUE = 1e-3
+LEAST_EIGENVALUE = 1e-4
 
 
 def valid_gram(gram: Array) -> Array:
@@ -37,6 +37,10 @@ def predicted_targets(similarities: Array, gram: Array, targets: Array) -> Array
     Divided by what the same regression predicts for targets that are all 1, so that a placement which resembles
     nothing well keeps the preference of what it resembles most; how well it resembles is said by the similarities.
 
+    Similarities are shares of each example's with itself, so that those of two examples to each other differ. The
+    kernel is the product of two placements' similarities to all examples, which is symmetric and never indefinite; a
+    placement with the similarities of an example gets the target of that example.
+
     Parameters
     ----------
     similarities : ndarray of shape (n, m)
@@ -50,6 +54,6 @@ def predicted_targets(similarities: Array, gram: Array, targets: Array) -> Array
     """
     if (targets == targets[0]).all():
         return np.full(len(similarities), float(targets[0]))
-    weights = np.linalg.solve(valid_gram(gram), np.stack([targets, np.ones_like(targets)], axis=1))
-    wanted, whole = (similarities @ weights).T
+    weights = np.linalg.solve(valid_gram(gram @ gram.T), np.stack([targets, np.ones_like(targets)], axis=1))
+    wanted, whole = (similarities @ gram.T @ weights).T
     return np.clip(wanted / np.maximum(whole, 1e-9), 0.0, 1.0)

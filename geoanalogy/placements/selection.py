@@ -98,7 +98,7 @@ def shape_factor(sizes: Array, taught: Array, aspect_tolerance: float, area_tole
 
 
 #: Least and greatest certainty at which a candidate is kept by default.
-CUTS = (0.2, 0.45)
+CUTS = (0.1, 0.45)
 #: The least one where exactly one placement per parent was taught.
 CUT_OF_ONE = 0.02
 

@@ -6,13 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .arrangement import Arrangement
-from .boxes import interval_overlap, union_overlap
-from .calibration import ABROAD, AT_HOME
-from .candidates import crossings, predictions, proposals, rhythm, rows_of
-from .evidence import Company, anchors_of, single_evidence
-from .lesson import Lesson
-from .selection import thin, without_overlaps
-from .signature import signature
+from .boxes import interval_overlap, overlap, union_overlap
+from .calibration import ABROAD, ALONE, AT_HOME, Judgement
+from .candidates import crossings, predictions, proposals
+from .evidence import Company, anchors_of, like_parents, single_evidence
+from .lesson import Lesson, Match
+from .one_each import copies, copy_evidence
+from .regularity import beats, rhythm, rows_of
+from .selection import shape_factor, thin, without_overlaps
+from .signature import Signature, signature
 
 Array = NDArray[np.float64]
 
@@ -25,11 +27,16 @@ EQUALLY_ALIKE = 1e-4
 #: Overlap from which candidates are of the same place.
 SAME_PLACE = 0.6
 #: Overlap from which two candidates are the same.
-SAME = 0.75
-#: Overlap with an example from which a candidate is that example again.
-EXAMPLE_AGAIN = 0.5
+SAME = 0.7
+#: Share of the smaller of both that a candidate and an example share at most.
+EXAMPLE_AGAIN = 0.4
 #: Meetings of rows and columns that are tried for every one that may be added.
 MOST_MET = 4
+#: Similarity from which a candidate is like an example, the certainty of its equal, and the similarity below
+#: which candidates are something else.
+ALIKE, SURELY_ALIKE, UNLIKE = 0.85, 0.9, 0.7
+#: By what the odds are multiplied of what keeps to what all examples keep to exactly, and of what does not.
+EXACT, INEXACT = 3.0, 0.1
 #: Certainty from which a candidate's extents are continued across the arrangement.
 CONTINUED = 0.15
 
@@ -43,8 +50,8 @@ class Survey:
     boxes : ndarray of shape (n, 4)
     company : Company
         The candidates among each other.
-    similarities : ndarray of shape (n, m)
-        To every example.
+    similarities, contrast : ndarray of shape (n, m)
+        To every example; and by what tells examples and counter-examples apart.
     single, among, settled : ndarray of shape (n, …)
         Evidence of each candidate, among the others by similarity, and by certainty.
     certainty : ndarray of shape (n,)
@@ -53,17 +60,21 @@ class Survey:
         All that elements predict; the candidates are those that differ.
     repeats : ndarray of shape (p,), int
         How often each is predicted.
+    chosen : int or None
+        The one candidate, where every parent holds one.
     """
 
     boxes: Array
     company: Company
     similarities: Array
+    contrast: Array
     single: Array
     among: Array
     settled: Array
     certainty: Array
     predicted: Array
     repeats: NDArray[np.intp]
+    chosen: int | None = None
 
 
 def glance(
@@ -85,9 +96,62 @@ def glance(
     boxes : ndarray of shape (n, 4)
     evidence : ndarray of shape (n, len(SINGLE))
     """
-    boxes = proposals(lesson, arrangement, present, predicted, repeats)
-    seen = signature(arrangement, boxes, 1, lesson.labels, outlines=not arrangement.parent_fills_box)
-    return boxes, single_evidence(lesson, arrangement, boxes, seen, lesson.match(seen, 1), present)
+    more = copies(lesson, arrangement) if is_alone(lesson, present) else None
+    boxes = proposals(lesson, arrangement, present, predicted, repeats, more)
+    outlines = is_alone(lesson, present) or not arrangement.parent_fills_box
+    seen = signature(arrangement, boxes, 1, lesson.labels, outlines)
+    return boxes, _evidence(lesson, arrangement, boxes, seen, lesson.match(seen, 1), present, 1)
+
+
+def is_alone(lesson: Lesson, present: Array) -> bool:
+    """Whether an arrangement is to hold one placement, as those of the examples do.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    present : ndarray of shape (m, 4)
+        Positive examples drawn in it.
+
+    Returns
+    -------
+    bool
+    """
+    return lesson.one_each and not len(present)
+
+
+def judgement_of(lesson: Lesson, present: Array) -> Judgement:
+    """The models that rate the candidates of an arrangement.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    present : ndarray of shape (m, 4)
+        Positive examples drawn in it.
+
+    Returns
+    -------
+    Judgement
+    """
+    if len(present):
+        return AT_HOME
+    return ALONE if lesson.one_each else ABROAD
+
+
+def _evidence(
+    lesson: Lesson,
+    arrangement: Arrangement,
+    boxes: Array,
+    seen: Signature,
+    matches: dict[str, Match],
+    present: Array,
+    neighbours: int,
+) -> Array:
+    """Evidence of single candidates, that of copies included where there is one placement."""
+    single = single_evidence(lesson, arrangement, boxes, seen, matches, present)
+    if not is_alone(lesson, present):
+        return single
+    like = like_parents(lesson, arrangement)
+    return np.hstack([single, copy_evidence(lesson, arrangement, boxes, seen, like, neighbours)])
 
 
 def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Array) -> Survey:
@@ -106,30 +170,108 @@ def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
     -------
     Survey
     """
-    judge = AT_HOME if len(present) else ABROAD
+    judge = judgement_of(lesson, present)
     predicted, repeats = predictions(lesson, arrangement)
     proposed, quick = glance(lesson, arrangement, present, predicted, repeats)
-    boxes = _without_shown(proposed[thin(proposed, judge.glance.certainty(quick), SAME, LOOKED_AT)], shown)
-    similar, single = look(lesson, arrangement, boxes, present)
+    worth = judge.glance.certainty(quick)
+    new = _unlike_shown(proposed, shown)
+    proposed, worth = proposed[new], worth[new]
+    boxes = proposed[thin(proposed, worth, SAME, LOOKED_AT)]
+    similar, contrast, exact, single = look(lesson, arrangement, boxes, present)
     company = Company(boxes, present, anchors_of(lesson, arrangement, np.concatenate([boxes, present])))
     among = company.evidence(similar[:, lesson.positive].max(axis=1, initial=0.0))
     first = judge.look.certainty(np.hstack([single, among]))
-    more = _without_shown(_continued(boxes, first, present, arrangement), shown)
+    more = _continued(boxes, first, present, arrangement)
+    more = more[_unlike_shown(more, shown)]
     if len(more):
-        more_similar, more_single = look(lesson, arrangement, more, present)
+        more_similar, more_contrast, more_exact, more_single = look(lesson, arrangement, more, present)
         boxes = np.concatenate([boxes, more])
         similar = np.concatenate([similar, more_similar])
+        contrast = np.concatenate([contrast, more_contrast])
+        exact = np.concatenate([exact, more_exact])
         single = np.concatenate([single, more_single])
         company = Company(boxes, present, anchors_of(lesson, arrangement, np.concatenate([boxes, present])))
         among = company.evidence(similar[:, lesson.positive].max(axis=1, initial=0.0))
         first = judge.look.certainty(np.hstack([single, among]))
     settled = np.hstack([judge.look.value(np.hstack([single, among]))[:, None], company.evidence(first)])
-    certainty = judge.settle.certainty(np.hstack([single, among, settled]))
-    return Survey(boxes, company, similar, single, among, settled, certainty, predicted, repeats)
+    every = np.hstack([single, among, settled])
+    certainty = np.maximum(judge.settle.certainty(every), likeness(similar[:, lesson.positive]))
+    # What keeps exactly to what examples keep to exactly follows the rule, whatever the weights say; the rest does not.
+    exactness = np.where(np.isnan(exact), 0.0, (1 - exact) * np.log(INEXACT) + exact * np.log(EXACT))
+    certainty = more_certain(certainty, exactness)
+    chosen = None
+    if judge.choose is not None and len(boxes):
+        chosen = one_of(lesson, boxes, judge.choose.value(every) + exactness)
+    return Survey(boxes, company, similar, contrast, single, among, settled, certainty, predicted, repeats, chosen)
 
 
-def look(lesson: Lesson, arrangement: Arrangement, boxes: Array, present: Array) -> tuple[Array, Array]:
-    """Similarities (n, m) and evidence (n, len(SINGLE)) of boxes from all their relations.
+def more_certain(certainty: Array, value: Array) -> Array:
+    """Certainty after more evidence.
+
+    Parameters
+    ----------
+    certainty : ndarray of shape (n,)
+    value : ndarray of shape (n,)
+        Logarithms of the factors of the odds.
+
+    Returns
+    -------
+    ndarray of shape (n,)
+    """
+    odds = certainty * np.exp(value)
+    return odds / (odds + 1 - certainty)
+
+
+def likeness(similar: Array) -> Array:
+    """Certainty of candidates that can hardly be told from an example.
+
+    Whatever the weights say, what is like an example in all that counts is as good as one, unless most candidates are:
+    then nothing that counts tells places apart.
+
+    Parameters
+    ----------
+    similar : ndarray of shape (n, m)
+        Similarities to positive examples.
+
+    Returns
+    -------
+    ndarray of shape (n,)
+        0 to `SURELY_ALIKE`.
+    """
+    best = similar.max(axis=1, initial=0.0)
+    if not len(best):
+        return best
+    distinct = (best < UNLIKE).mean()
+    return SURELY_ALIKE * distinct * np.clip((best - ALIKE) / (1 - ALIKE), 0.0, 1.0)
+
+
+def one_of(lesson: Lesson, boxes: Array, value: Array) -> int:
+    """The candidate that is nearest to the right one in expectation.
+
+    Not the likeliest alone: of many that are somewhat likely, the one in their midst overlaps most with whichever is
+    meant. Squared overlaps, so that one corner or the other is chosen and not the middle of the room between them.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    boxes : ndarray of shape (n, 4)
+    value : ndarray of shape (n,)
+        Logarithms of their odds.
+
+    Returns
+    -------
+    int
+    """
+    options = lesson.options
+    shape = shape_factor(
+        boxes[:, 2:] - boxes[:, :2], lesson.sizes[lesson.positive], options.aspect_tolerance, options.area_tolerance
+    )
+    odds = np.exp(value - value.max()) * shape
+    return int(np.argmax(union_overlap(boxes, boxes) ** 2 @ odds))
+
+
+def look(lesson: Lesson, arrangement: Arrangement, boxes: Array, present: Array) -> tuple[Array, Array, Array, Array]:
+    """Similarities (n, m), those by contrast, exactness (n,) and evidence (n, f) of boxes from all their relations.
 
     Parameters
     ----------
@@ -140,11 +282,14 @@ def look(lesson: Lesson, arrangement: Arrangement, boxes: Array, present: Array)
 
     Returns
     -------
-    similarities, evidence : ndarray
+    similarities, contrast, exactness, evidence : ndarray
     """
     seen = signature(arrangement, boxes, lesson.options.neighbours, lesson.labels)
     matches = lesson.match(seen)
-    return lesson.similarities(matches), single_evidence(lesson, arrangement, boxes, seen, matches, present)
+    evidence = _evidence(lesson, arrangement, boxes, seen, matches, present, lesson.options.neighbours)
+    similar = lesson.similarities(matches)
+    contrast = similar if lesson.contrast is lesson else lesson.contrast.similarities(lesson.contrast.match(seen))
+    return similar, contrast, lesson.habits.constructed(seen), evidence
 
 
 def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDArray[np.intp]) -> tuple[Array, Array]:
@@ -201,8 +346,9 @@ def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDAr
     return boxes, similar
 
 
-def _without_shown(boxes: Array, shown: Array) -> Array:
-    return boxes[(union_overlap(boxes, shown) <= EXAMPLE_AGAIN).all(axis=1)] if len(shown) else boxes
+def _unlike_shown(boxes: Array, shown: Array) -> NDArray[np.bool_]:
+    """Which boxes are not in the place of an example: those can be no results."""
+    return (overlap(boxes, shown) <= EXAMPLE_AGAIN).all(axis=1)
 
 
 def _continued(boxes: Array, certainty: Array, present: Array, arrangement: Arrangement) -> Array:
@@ -217,7 +363,10 @@ def _continued(boxes: Array, certainty: Array, present: Array, arrangement: Arra
     if len(every) < 2:
         return np.zeros((0, 4))
     x, y = (rows_of(every[:, [a, a + 2]]) for a in (0, 1))
-    meetings = crossings(np.concatenate([x, rhythm(x)]), np.concatenate([y, rhythm(y)]))
+    box = arrangement.parent_box
+    meetings = crossings(
+        *(np.concatenate([r, rhythm(r), beats(r, box[a], box[a + 2])[0]]) for a, r in enumerate((x, y)))
+    )
     weight = np.concatenate([np.ones(len(present)), certainty[likely]])
     support = np.prod([(interval_overlap(meetings, every, a) * weight).sum(axis=1) for a in (0, 1)], axis=0)
     best = np.argsort(-support, kind="stable")[: MOST_MET * GROWN]

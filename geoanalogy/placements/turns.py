@@ -82,8 +82,10 @@ def turned(seen: Signature, turn: tuple[int, int, bool]) -> Signature:
         moved = values[:, :, samples]
         if reversed_:
             for i, name in enumerate(outline_relations_of(key)):
-                if name in ("segment arc length", "corner ratio"):
+                if name == "segment arc length":
                     moved[..., i] = 1.0 - moved[..., i]
+                elif name == "corner ratio":  # beyond the corner's edges it goes on from 1 to 2 = 0
+                    moved[..., i] = (1.0 - moved[..., i]) % 2.0
         outlines[key] = moved
     return Signature({key: turned_boxes(values, turn) for key, values in seen.boxes.items()}, outlines)
 

@@ -1,0 +1,167 @@
+"""Draw figures 5.4 and 5.10 to 5.13 into docs/figures.
+
+    python -m benchmarks.placements_figures [NAME …]
+
+Without names, all of them.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+import geoanalogy as ga
+
+from . import drawing as draw
+from .peers.sample_models import SampleModels
+from .studies import arrangements
+from .studies.arrangements import Arrangement
+
+FOLDER = Path(__file__).resolve().parent.parent / "docs" / "figures"
+#: Step of the heat maps, scene units.
+STEP = 0.1
+
+
+def shown_in(ax: Axes, case: Arrangement, floor: str = draw.FLOOR, examples: int | None = None) -> None:
+    """The scene, and its first few examples or all."""
+    draw.scene(ax, case.scene, [str(p.id) for p in case.scene.polygons if p.label == case.label], floor, names=False)
+    for r in case.shown[:examples]:
+        draw.ring(ax, r.ring, edgecolor=draw.EXAMPLE, facecolor=draw.EXAMPLE, alpha=0.75, zorder=6)
+
+
+def placed(ax: Axes, found: list[ga.Placement], by_score: bool = False) -> None:
+    """Results; the surer the darker where that is asked for."""
+    for p in found[::-1]:
+        colour = draw.HEAT(0.15 + 0.7 * p.score) if by_score else draw.RESULT
+        draw.ring(ax, p.rectangle.ring, facecolor=colour, alpha=0.45, edgecolor="none", zorder=5)
+        draw.ring(ax, p.rectangle.ring, edgecolor=colour, linewidth=1.0, zorder=6)
+
+
+def heat(ax: Axes, case: Arrangement, sample: int, tau: float = 1.0) -> None:
+    """Target values of one sample model in all parents (section 5.5)."""
+    models = SampleModels(case.scene, case.label, case.shown, tau)
+    for parent in (p for p in case.scene.polygons if p.label == case.label):
+        low, high = parent.points.min(axis=0), parent.points.max(axis=0)
+        x, y = (np.arange(low[a] + STEP / 2, high[a], STEP) for a in (0, 1))
+        at = np.stack(np.meshgrid(x, y), axis=-1)
+        values = models.predicted(sample, parent, at.reshape(-1, 2)).reshape(at.shape[:2])
+        extent = (low[0], high[0], low[1], high[1])
+        ax.imshow(values, extent=extent, origin="lower", cmap=draw.HEAT, vmin=0, vmax=1, zorder=2)
+
+
+def figure_5_04() -> Figure:
+    """Balconies: the heat map of a sample, all candidates by score, and what passes the threshold."""
+    case = arrangements.balconies()
+    model = case.learned()
+    figure, panels = draw.canvas(3, 1, 9.5, 2.2)
+    shown_in(panels[0, 0], case, "none")
+    heat(panels[0, 0], case, 0)
+    draw.title(panels[0, 0], "target of the lower left sample")
+    for ax, threshold, text in zip(
+        panels[0, 1:], (0.05, None), ("candidates by score", "default threshold"), strict=True
+    ):
+        shown_in(ax, case)
+        placed(ax, model.place(case.scene, threshold), by_score=True)
+        draw.title(ax, text)
+    return figure
+
+
+def _compared(cases: list[tuple[str, Arrangement, int | None]], width: float, height: float) -> Figure:
+    figure, panels = draw.canvas(len(cases), 1, width, height)
+    for ax, (text, case, count) in zip(panels.flat, cases, strict=True):
+        shown_in(ax, case, examples=count)
+        placed(ax, case.learned(count).place(case.scene))
+        draw.title(ax, text)
+    return figure
+
+
+def figure_5_10_a() -> Figure:
+    """A balcony adapts its width to the facade."""
+    case = arrangements.wide_balconies()
+    return _compared([("one example", case, 1), ("two examples", case, None)], 7.5, 1.8)
+
+
+def figure_5_10_b() -> Figure:
+    """A second example tells that the window matters and not the door."""
+    case = arrangements.flower_boxes()
+    return _compared([("one example: below a window, above a door", case, 1), ("two examples", case, None)], 7.5, 1.9)
+
+
+def figure_5_10_c() -> Figure:
+    """A second example tells whether doors keep their size."""
+    keeping, adapting = arrangements.doors(False), arrangements.doors(True)
+    return _compared(
+        [("one example", keeping, 1), ("doors of one size", keeping, None), ("doors that adapt", adapting, None)],
+        9.5,
+        1.7,
+    )
+
+
+def figure_5_11() -> Figure:
+    """What is learned of a mirror between basin and lamp, in words and weights."""
+    case = arrangements.mirrors()
+    model = case.learned()
+    figure, panels = draw.canvas(1, 2, 7.5, 3.4)
+    shown_in(panels[0, 0], case)
+    placed(panels[0, 0], model.place(case.scene))
+    told = model.rule()[::-1]
+    ax = panels[1, 0]
+    ax.axis("on")
+    ax.set_aspect("auto")
+    ax.barh(range(len(told)), [r.weight for r in told], color=draw.RESULT, height=0.6)
+    ax.set_yticks(range(len(told)), [r.text for r in told], fontsize=6.5)
+    ax.set_xlim(0, 1)
+    ax.set_xlabel("weight")
+    return figure
+
+
+def figure_5_12() -> Figure:
+    """The kernel size: what a small one tells apart is the same to a large one."""
+    case = arrangements.entrances()
+    figure, panels = draw.canvas(1, 3, 7.5, 5.2)
+    for ax, tau in zip(panels.flat, (0.3, 1.0, 3.0), strict=True):
+        shown_in(ax, case, "none")
+        heat(ax, case, 0, tau)
+        model = case.learned(tau=tau)
+        for p in model.place(case.scene, 0.01):
+            if p.novelty <= 0.5:
+                draw.ring(ax, p.rectangle.ring, edgecolor=draw.RESULT, linewidth=1.2, zorder=7)
+                draw.note(ax, (p.rectangle.x, p.rectangle.y + 2.9), f"similarity {1 - p.novelty:.2f}")
+        draw.title(ax, f"τ = {tau:g}")
+    return figure
+
+
+def figure_5_13() -> Figure:
+    """A house of two floors is new to what was taught on one."""
+    case = arrangements.floors()
+    figure, panels = draw.canvas(1, 1, 8.5, 1.9)
+    ax = panels[0, 0]
+    shown_in(ax, case)
+    found = case.learned().place(case.scene)
+    placed(ax, found)
+    for p in found:
+        draw.note(ax, (p.rectangle.x, p.rectangle.y - 3.3), f"score {p.score:.2f}, novelty {p.novelty:.2f}")
+    low, high = ax.get_ylim()
+    ax.set_ylim(low - 1, high)
+    return figure
+
+
+FIGURES = {name: made for name, made in globals().items() if name.startswith("figure_")}
+
+
+def main() -> None:
+    """Draw the figures that are named."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("names", nargs="*", choices=[*FIGURES, []], metavar="NAME", help=", ".join(FIGURES))
+    for name in parser.parse_args().names or FIGURES:
+        figure = FIGURES[name]()
+        figure.savefig(FOLDER / f"{name}.png")
+        draw.plt.close(figure)
+
+
+if __name__ == "__main__":
+    main()
