@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from .frame import SPACE, Frame
+from .frame import Frame
 from .polygon import Polygon
 
 #: The surface that the polygons of a scene lie on.
@@ -50,7 +50,3 @@ class Surface:
         """
         own = Polygon(polygon.points, polygon.label, id, polygon.holes, None, 0.0, polygon.segment_labels)
         return cls(id, polygon.label, frame, own)
-
-
-#: Where the polygons of a scene lie.
-GROUND_FRAME = SPACE

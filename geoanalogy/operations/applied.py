@@ -40,8 +40,8 @@ class Applied(list[Element]):
 
     @property
     def surfaces(self) -> list[Surface]:
-        """All surfaces of the solids."""
-        return list(Layout(self.layout.ground, self.layout.elements).surfaces())
+        """All surfaces: those chosen by the user, and those of the solids."""
+        return list(Layout(self.layout.ground, self.layout.elements, chosen=self.layout.chosen).surfaces())
 
 
 @dataclass(frozen=True)

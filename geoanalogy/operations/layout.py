@@ -27,12 +27,15 @@ class Layout:
         Ids of polygons, elements and surfaces that this branch of the tree does not see, nor what stands on them.
     problems : tuple of str
         What could not be done upstream, a sentence each.
+    chosen : tuple of Surface
+        Surfaces that the user has chosen, besides those of solids.
     """
 
     ground: Scene
     elements: tuple[Element, ...] = ()
     aside: frozenset[str] = frozenset()
     problems: tuple[str, ...] = ()
+    chosen: tuple[Surface, ...] = ()
 
     @cached_property
     def scene(self) -> Scene:
@@ -87,23 +90,8 @@ class Layout:
             found[e.surface].append(e)
         return dict(found)
 
-    def whole(self, element: Element) -> Element:
-        """The element that an element has become a part of; itself where it stands alone.
-
-        Parameters
-        ----------
-        element : Element
-
-        Returns
-        -------
-        Element
-        """
-        while element.absorbed_by in self.by_id:
-            element = self.by_id[element.absorbed_by]
-        return element
-
     def surfaces(self, labels: Collection[str] | None = None) -> Iterator[Surface]:
-        """The surfaces of solids that this branch sees.
+        """The surfaces that this branch sees: those chosen by the user, then those of solids.
 
         Parameters
         ----------
@@ -120,6 +108,11 @@ class Layout:
                 if any(e.label in labels for e in elements):
                     owner, name = self._face_of(elements[0])
                     holding[owner].add(name)
+        for surface in self.chosen:
+            there = self.on.get(surface.id, ())
+            wanted_here = labels is None or surface.label in labels or any(e.label in labels for e in there)
+            if wanted_here and surface.id not in self.aside:
+                yield surface
         for e in self.visible:
             if e.solid is None or e.absorbed_by:
                 continue
@@ -186,7 +179,7 @@ class Layout:
         owner, name = self._face_of(element)
         solid = self.by_id[owner].solid if owner else None
         if solid is None:
-            return None
+            return next((s for s in self.chosen if s.id == element.surface), None)
         there = solid.surfaces(owner, self.by_id[owner].place, [solid.by_name[name]] if name in solid.by_name else [])
         return next((s for s in there if s.id.endswith(element.surface)), there[0] if there else None)
 
@@ -294,7 +287,8 @@ def merge(ground: Scene, layouts: Sequence[Layout], rank: Mapping[str, int]) -> 
             every[e.id] = e if known is None or known == e else _merged(known, e, rank, ground)
     aside = frozenset.intersection(*(layout.aside for layout in layouts))
     problems = tuple(dict.fromkeys(p for layout in layouts for p in layout.problems))
-    return Layout(ground, tuple(sorted(every.values(), key=lambda e: rank[e.node])), aside, problems)
+    chosen = layouts[0].chosen
+    return Layout(ground, tuple(sorted(every.values(), key=lambda e: rank[e.node])), aside, problems, chosen)
 
 
 def _merged(one: Element, other: Element, rank: Mapping[str, int], ground: Scene) -> Element:

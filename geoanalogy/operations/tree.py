@@ -11,6 +11,7 @@ from typing import Any
 from ..errors import InputError
 from ..geometry.mesh import Mesh
 from ..geometry.scene import Scene
+from ..geometry.surface import Surface
 from ..progress import Progress, Stepper, run, within
 from .applied import Applied
 from .evaluation import Evaluations
@@ -171,6 +172,7 @@ class OperationsTree:
         seed: int = 0,
         progress: Progress | None = None,
         library: Mapping[str, Mesh] | None = None,
+        surfaces: Sequence[Surface] = (),
     ) -> Applied:
         """All elements that the tree places on a scene.
 
@@ -183,6 +185,8 @@ class OperationsTree:
             Returning False cancels.
         library : mapping of str to Mesh, optional
             The library objects by name; None: elements keep their names.
+        surfaces : sequence of Surface
+            Chosen by the user, to be placed on like the ground.
 
         Returns
         -------
@@ -197,9 +201,15 @@ class OperationsTree:
         Cancelled
             When `progress` returned False.
         """
-        return run(self.steps(scene, seed, library), progress)
+        return run(self.steps(scene, seed, library, surfaces), progress)
 
-    def steps(self, scene: Scene, seed: int = 0, library: Mapping[str, Mesh] | None = None) -> Stepper[Applied]:
+    def steps(
+        self,
+        scene: Scene,
+        seed: int = 0,
+        library: Mapping[str, Mesh] | None = None,
+        surfaces: Sequence[Surface] = (),
+    ) -> Stepper[Applied]:
         """The stepper behind `apply`.
 
         Parameters
@@ -207,13 +217,14 @@ class OperationsTree:
         scene : Scene
         seed : int
         library : mapping of str to Mesh, optional
+        surfaces : sequence of Surface
 
         Returns
         -------
         generator of (float, str)
             Returns what was applied.
         """
-        layout = yield from self.layout_steps(scene, seed=seed)
+        layout = yield from self.layout_steps(scene, seed=seed, surfaces=surfaces)
         scene.memory.settle()
         return Applied(layout, self.evaluations.hit_rate, library)
 
@@ -223,6 +234,7 @@ class OperationsTree:
         node: str | Sequence[Link] | None = None,
         seed: int = 0,
         progress: Progress | None = None,
+        surfaces: Sequence[Surface] = (),
     ) -> Layout:
         """What flows out of a node: the layout that the next operation after it sees.
 
@@ -234,6 +246,8 @@ class OperationsTree:
         seed : int
         progress : callable (fraction, text) -> bool, optional
             Returning False cancels.
+        surfaces : sequence of Surface
+            Chosen by the user.
 
         Returns
         -------
@@ -246,9 +260,15 @@ class OperationsTree:
         Cancelled
             When `progress` returned False.
         """
-        return run(self.layout_steps(scene, node, seed), progress)
+        return run(self.layout_steps(scene, node, seed, surfaces), progress)
 
-    def layout_steps(self, scene: Scene, node: str | Sequence[Link] | None = None, seed: int = 0) -> Stepper[Layout]:
+    def layout_steps(
+        self,
+        scene: Scene,
+        node: str | Sequence[Link] | None = None,
+        seed: int = 0,
+        surfaces: Sequence[Surface] = (),
+    ) -> Stepper[Layout]:
         """The stepper behind `layout`.
 
         Parameters
@@ -256,6 +276,7 @@ class OperationsTree:
         scene : Scene
         node : str or sequence of Link, optional
         seed : int
+        surfaces : sequence of Surface
 
         Returns
         -------
@@ -267,10 +288,11 @@ class OperationsTree:
         wanted = self._upstream(self.node(link.node).id for link in links)
         needed = [n for n in self.nodes if n.id in wanted]
         outputs: dict[str, tuple[Layout, ...]] = {}
+        bare = Layout(scene, chosen=tuple(surfaces))
 
         def joined(links: Iterable[Link]) -> Layout:
             sources = sorted(set(links), key=lambda k: (rank[k.node], k.output))
-            return merge(scene, [outputs[k.node][k.output] for k in sources] or [Layout(scene)], rank)
+            return merge(scene, [outputs[k.node][k.output] for k in sources] or [bare], rank)
 
         for i, current in enumerate(needed):
             yield i / len(needed), current.id

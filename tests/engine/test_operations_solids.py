@@ -9,9 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapes import rectangle
 
-from geoanalogy import Example, InputError, Mesh, OperationsTree, Polygon, Pose, Rectangle, Scene, learn_pose
+from geoanalogy import Example, InputError, Mesh, OperationsTree, Polygon, Pose, Rectangle, Scene, Surface, learn_pose
 from geoanalogy.geometry.extrusion import FaceLabels
+from geoanalogy.geometry.frame import Frame
 from geoanalogy.geometry.roof import Roof
+from geoanalogy.operations.applied import instances
 from geoanalogy.operations.boolean import Boolean
 from geoanalogy.operations.decisions import Decisions, Pin
 from geoanalogy.operations.extrusion import Extrusion
@@ -354,6 +356,37 @@ def test_a_pose_is_propagated_to_all_surfaces(tree):
     for e in lamps:  # a rectangle fits onto itself turned by half: either corner is right
         height = e.frame.to_space([e.pose.position])[0][2]
         assert min(abs(height - 2.2), abs(height - 0.8)) < 0.05
+
+
+def test_surfaces_that_the_user_chose_are_placed_on():
+    """A wall in a scene that has none: equal to the fronts that a window was drawn in."""
+    wall = Surface.of("wall 1", Frame.of((4, 9, 1), (0, 1, 0), (0, 0, 1)), Polygon(rectangle(8, 3), FRONT))
+    other = Surface.of("wall 2", Frame.of((7, 0, 0), (-1, 0, 0), (0, 0, 1)), Polygon(rectangle(8, 3), FRONT))
+    sheet = Scene([wall.polygon])
+    drawn_here = RectanglePlacement.learned(
+        [Example(sheet, Rectangle(2.0, 1.6, 1.2, 1.2))], label="window", mesh="", size=(1, 1), max_per={FRONT: 1}
+    )
+    out = Extrusion(label="window", height=0.3)
+    tree = OperationsTree([Node("window", drawn_here), Node("out", out, (Link("window"),))])
+    applied = tree.apply(Scene([]), surfaces=[wall, other])
+    assert [(e.surface, e.owner) for e in applied] == [("wall 1", ""), ("wall 2", "")]
+    assert applied[0].mesh.vertices.min(axis=0) == pytest.approx((4, 10.4, 2.0), abs=0.01)
+    assert applied[1].mesh.vertices.max(axis=0) == pytest.approx((5.6, 0.3, 2.2), abs=0.01)
+    assert [s.id for s in applied.surfaces][:2] == ["wall 1", "wall 2"]
+    assert tree.evaluations.surfaces_reused == 1
+
+
+def test_instances_share_their_shapes(tree):
+    scene = Scene([plot(i, angle=0.3 * i) for i in range(3)])
+    masses = OperationsTree([tree.node("house"), tree.node("mass")]).layout(scene).elements
+    made = instances(masses)
+    assert len(made) == 3 and len({id(one.mesh) for one in made}) == 1
+    for one, e in zip(made, masses, strict=True):
+        assert one.frame.to_space(one.mesh.vertices) == pytest.approx(e.geometry.vertices)
+    shed = dataclasses.replace(house(Scene(plots())).operation, mesh="Shed")
+    placed = OperationsTree([Node("shed", shed)]).layout(scene).elements
+    assert [(one.mesh, one.scale) for one in instances(placed)] == [("Shed", (*e.stretch, 1.0)) for e in placed]
+    assert [e for e in instances(tree.layout(scene).elements) if e.element.label == "window"] == []
 
 
 def test_equal_surfaces_are_evaluated_once(tree):
