@@ -30,7 +30,7 @@ EDITS: list[AnyEdit] = [
     Edit("fleur-de-lis", (PEAK, 0.090, UP), threshold=0.2, options=FIXED),
     Edit("ruby", (PEAK, 0.052, UP), threshold=0.6, options=FIXED),
     Edit("diamond", (PEAK + 0.021, 0.050, UP), threshold=0.5, options=MIRRORED),
-    Edit("pearl", (PEAK, 0.1120, UP), threshold=0.15, options=near("ornament")),
+    Edit("pearl", (PEAK, 0.1120, UP), threshold=0.5, options=near("ornament")),
     Edit("emerald", (HOLLOW, 0.047, UP), threshold=0.5, options=FIXED),
     Edit("emerald", (LOW_ARCH, _DUCAL.origin[1] + 0.054, UP), threshold=0.5, options=FIXED),
     ArrayEdit("pearl", (0.0064, 0.0064, UP), (_ROYAL.length - 0.0064, 0.0064, UP), 0.0104, FIXED, {"way": "left"}),

@@ -52,6 +52,8 @@ class ArrayEdit:
         Settings of :class:`geoanalogy.PoseOptions`, for start and end.
     array : mapping
         Settings of the array.
+    threshold : float
+        Rows below this importance are not placed.
     """
 
     asset: str
@@ -60,6 +62,7 @@ class ArrayEdit:
     spacing: float
     options: Mapping[str, Any] = field(default_factory=dict)
     array: Mapping[str, Any] = field(default_factory=dict)
+    threshold: float = 0.45
 
 
 @dataclass(frozen=True)

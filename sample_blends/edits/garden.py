@@ -60,7 +60,9 @@ EDITS: list[AnyEdit] = [
     ArrayEdit("flower urn", (6.4, 53.0, 0.0), None, 5.0, MIRRORED),
     ScatterEdit("broad-leaved tree", (44.0, 70.0, 0.0), {"count": 9, "spacing": 4.4}, options=WILD),
     # flowers, and hedges around the parcels
-    ArrayEdit("red flower", _about(ROUND_BED, 1.42, 0.0, 0.0), None, 0.72, FIXED, {"even": True, "threshold": 0.1}),
+    ArrayEdit(
+        "red flower", _about(ROUND_BED, 1.42, 0.0, 0.0), None, 0.72, FIXED, {"even": True, "threshold": 0.1}, 0.1
+    ),
     GroupEdit(_flowers(), {"corners": False}),
     ArrayEdit("box hedge", (4.8, 49.4, 180.0), (24.4, 34.2, 90.0), 1.25, HEDGE, {"way": "right"}),
 ]

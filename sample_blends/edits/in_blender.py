@@ -77,7 +77,7 @@ def _array(context, edit: ArrayEdit, holder, height, number):
         holder.objects.link(end)
     options, array = PoseOptions(**edit.options), ArrayOptions(**edit.array)
     name = f"{number} {edit.asset} row"
-    return recording.array_steps(context, start, end, edit.spacing, options, array, name=name)
+    return recording.array_steps(context, start, end, edit.spacing, options, array, threshold=edit.threshold, name=name)
 
 
 def _group(context, edit: GroupEdit, holder, height, number):

@@ -69,7 +69,7 @@ def _array(scene: ga.Scene, edit: ArrayEdit) -> Operation:
     options = ga.PoseOptions(**edit.options)
     row = ArrayOptions(**edit.array)
     model = learn_array(scene, _pose(edit.place), end, edit.spacing, asset.footprint, options, row)
-    return ArrayPlacement(mesh=edit.asset, label=asset.label, model=model)
+    return ArrayPlacement(mesh=edit.asset, label=asset.label, model=model, threshold=edit.threshold)
 
 
 def _group(scene: ga.Scene, edit: GroupEdit) -> Operation:

@@ -85,10 +85,10 @@ EDITS = [
         most=1,
         options=SPANNING,
     ),
-    PlacementEdit("sill", _about(_WINDOWS, 0.7, -1.0, -0.85), threshold=0.7, options=EXACT),
+    PlacementEdit("sill", _about(_WINDOWS, 0.7, -1.0, -0.85), threshold=0.65, options=EXACT),
     # Both shutters of a window are one row of two, flush with its ends.
     PlacementEdit(
-        "shutter", _about(_WINDOWS, 1.08, -0.85, 0.85), fit=("repeat", "scale"), gap=(1.0, 0.0), threshold=0.7
+        "shutter", _about(_WINDOWS, 1.08, -0.85, 0.85), fit=("repeat", "scale"), gap=(1.0, 0.0), threshold=0.3
     ),
     PlacementEdit("door", tuple((id, DOOR[0], 0.0, DOOR[0] + DOOR[1], DOOR[2]) for id in SHOWN), most=1),
     PlacementEdit(
