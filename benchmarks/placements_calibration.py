@@ -33,7 +33,7 @@ from geoanalogy.placements.selection import rescaled, useful_cut, without_overla
 TABLE = pathlib.Path(__file__).resolve().parent.parent / "geoanalogy" / "placements" / "calibration_table.py"
 RIGHT = 0.5
 #: How sharply the choice among candidates follows their overlap with what is right.
-SHARPNESS = 15.0
+SHARPNESS = 30.0
 #: What a place that is right but for a mirroring is worth in rooms: which corner was taken is one choice of several.
 MIRRORED_WORTH = 0.4
 #: Of how many wrong candidates one is fitted, and how many steps a fit takes at most.

@@ -1,6 +1,7 @@
 """What each edge of the examples keeps to most closely."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,6 +93,12 @@ class Habits:
             explained = np.maximum(explained, (tight * agreement).max(axis=3))
         return kept, np.where(exact, explained, 1.0)
 
+    @cached_property
+    def exact(self) -> dict[str, NDArray[np.bool_]]:
+        """The coordinates that all examples agree in to the last digit, of the groups where every edge has one."""
+        found = {key: habit.scatter <= CONSTRUCTED * self.widths for key, habit in self.of.items()}
+        return {key: exact for key, exact in found.items() if exact.any(axis=2).all()}
+
     def constructed(self, seen: Signature) -> Array:
         """How exactly boxes keep to an element that the examples keep to exactly with all four edges.
 
@@ -109,17 +116,15 @@ class Habits:
         ndarray of shape (n,)
             Between 0 and 1, for the element that fits best; NaN where the examples keep exactly to none.
         """
-        best, found = np.zeros(len(seen.boxes[PARENT_BOX])), False
-        for key, habit in self.of.items():
-            exact = habit.scatter <= CONSTRUCTED * self.widths
-            if not exact.any(axis=2).all():
-                continue
-            found = True
+        if not self.exact:
+            return np.full(len(seen.boxes[PARENT_BOX]), np.nan)
+        best = np.zeros(len(seen.boxes[PARENT_BOX]))
+        for key, exact in self.exact.items():
             if key not in seen.boxes:
                 continue
             edges = seen.boxes[key][:, 0][:, :, [0, 2]]
-            off = edges - habit.middle
+            off = edges - self.of[key].middle
             off[..., 3] *= edges[..., 0] - edges[..., 1]
             agreement = np.nan_to_num(np.exp(-0.5 * (off / (HABIT_FLOOR * self.widths)) ** 2))
             best = np.maximum(best, (exact * agreement).max(axis=3).min(axis=(1, 2)))
-        return best if found else np.full(len(best), np.nan)
+        return best

@@ -35,6 +35,8 @@ MOST_MET = 4
 #: Similarity from which a candidate is like an example, the certainty of its equal, and the similarity below
 #: which candidates are something else.
 ALIKE, SURELY_ALIKE, UNLIKE = 0.85, 0.9, 0.7
+#: Overlap with the one candidate up to which others are of the same place.
+AROUND = 0.3
 #: By what the odds are multiplied of what keeps to what all examples keep to exactly, and of what does not.
 EXACT, INEXACT = 3.0, 0.1
 #: Certainty from which a candidate's extents are continued across the arrangement.
@@ -201,7 +203,11 @@ def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
     certainty = more_certain(certainty, exactness)
     chosen = None
     if judge.choose is not None and len(boxes):
-        chosen = one_of(lesson, boxes, judge.choose.value(every) + exactness)
+        chosen, middle = one_of(lesson, boxes, judge.choose.value(every) + exactness)
+        if not lesson.habits.exact and (middle[2:] > middle[:2]).all():
+            # Nothing is exact about it: no single candidate is better than the middle of those that are likely.
+            boxes[chosen] = middle
+            similar[chosen] = look(lesson, arrangement, middle[None], present)[0][0]
     return Survey(boxes, company, similar, contrast, single, among, settled, certainty, predicted, repeats, chosen)
 
 
@@ -245,8 +251,8 @@ def likeness(similar: Array) -> Array:
     return SURELY_ALIKE * distinct * np.clip((best - ALIKE) / (1 - ALIKE), 0.0, 1.0)
 
 
-def one_of(lesson: Lesson, boxes: Array, value: Array) -> int:
-    """The candidate that is nearest to the right one in expectation.
+def one_of(lesson: Lesson, boxes: Array, value: Array) -> tuple[int, Array]:
+    """The candidate that is nearest to the right one in expectation, and the middle of all in its place.
 
     Not the likeliest alone: of many that are somewhat likely, the one in their midst overlaps most with whichever is
     meant. Squared overlaps, so that one corner or the other is chosen and not the middle of the room between them.
@@ -260,14 +266,22 @@ def one_of(lesson: Lesson, boxes: Array, value: Array) -> int:
 
     Returns
     -------
-    int
+    chosen : int
+    middle : ndarray of shape (4,)
+        Each edge the median of those of the candidates around the chosen one, by their odds.
     """
     options = lesson.options
     shape = shape_factor(
         boxes[:, 2:] - boxes[:, :2], lesson.sizes[lesson.positive], options.aspect_tolerance, options.area_tolerance
     )
     odds = np.exp(value - value.max()) * shape
-    return int(np.argmax(union_overlap(boxes, boxes) ** 2 @ odds))
+    shared = union_overlap(boxes, boxes)
+    chosen = int(np.argmax(shared**2 @ odds))
+    around = shared[chosen] >= AROUND
+    edges, weight = boxes[around], odds[around]
+    order = np.argsort(edges, axis=0, kind="stable")
+    half = np.argmax(np.cumsum(weight[order], axis=0) >= weight.sum() / 2, axis=0)
+    return chosen, np.take_along_axis(edges, np.take_along_axis(order, half[None], axis=0), axis=0)[0]
 
 
 def look(lesson: Lesson, arrangement: Arrangement, boxes: Array, present: Array) -> tuple[Array, Array, Array, Array]:
@@ -312,7 +326,7 @@ def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDAr
         To every example.
     """
     boxes, similar = seen.boxes[chosen].copy(), seen.similarities[chosen].copy()
-    if not len(chosen):
+    if not len(chosen) or (seen.chosen is not None and not lesson.habits.exact):
         return boxes, similar
     alike = union_overlap(boxes, seen.predicted)
     near = np.where(alike >= SAME, seen.repeats[None] + alike / 2, -1.0)
