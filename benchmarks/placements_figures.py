@@ -15,6 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import geoanalogy as ga
+from geoanalogy.placements.signature import BOX, PARENT_BOX
 
 from . import drawing as draw
 from .peers.sample_models import SampleModels
@@ -105,17 +106,44 @@ def figure_5_11() -> Figure:
     """What is learned of a mirror between basin and lamp, in words and weights."""
     case = arrangements.mirrors()
     model = case.learned()
-    figure, panels = draw.canvas(1, 2, 7.5, 3.4)
+    figure, panels = draw.canvas(1, 2, 7.5, 3.6)
     shown_in(panels[0, 0], case)
     placed(panels[0, 0], model.place(case.scene))
-    told = model.rule()[::-1]
+    names = {"lamp": "lamp", "basin": "basin", "": "wall"}
+    edges = ("left edge", "centre", "right edge")
+    ways = ("from its left edge", "from its right edge", "from its centre", "as a share of its width")
     ax = panels[1, 0]
     ax.axis("on")
     ax.set_aspect("auto")
-    ax.barh(range(len(told)), [r.weight for r in told], color=draw.RESULT, height=0.6)
-    ax.set_yticks(range(len(told)), [r.text for r in told], fontsize=6.5)
-    ax.set_xlim(0, 1)
-    ax.set_xlabel("weight")
+    for row, (label, name) in enumerate(names.items()):
+        key = BOX + label if label else PARENT_BOX
+        weight = model.lesson.agreement(key, len(case.shown))[:, 0].mean(axis=0)[0]
+        for column, way in enumerate(ways):
+            for i, edge in enumerate(edges):
+                x, y = column + (i - 1) * 0.3, -row
+                ax.add_patch(
+                    draw.plt.Rectangle(
+                        (x - 0.13, y - 0.3), 0.26, 0.5, facecolor=draw.HEAT(weight[i, column]), ec=draw.INK, lw=0.4
+                    )
+                )
+                ax.text(
+                    x,
+                    y - 0.05,
+                    f"{weight[i, column]:.2f}",
+                    ha="center",
+                    va="center",
+                    fontsize=5.5,
+                    color="white" if weight[i, column] > 0.6 else draw.INK,
+                )
+                if not row:
+                    ax.text(x, 0.3, edge, ha="center", fontsize=5)
+            if not row:
+                ax.text(column, 0.55, way, ha="center", fontsize=6.5)
+        ax.text(-0.6, -row - 0.05, name, ha="right", va="center", fontsize=7)
+    ax.set_xlim(-1, len(ways) - 0.4)
+    ax.set_ylim(-len(names) + 0.4, 0.8)
+    ax.axis("off")
+    draw.title(ax, "agreement of the examples in each horizontal relation of the mirror")
     return figure
 
 
@@ -127,10 +155,11 @@ def figure_5_12() -> Figure:
         shown_in(ax, case, "none")
         heat(ax, case, 0, tau)
         model = case.learned(tau=tau)
-        for p in model.place(case.scene, 0.01):
-            if p.novelty <= 0.5:
-                draw.ring(ax, p.rectangle.ring, edgecolor=draw.RESULT, linewidth=1.2, zorder=7)
-                draw.note(ax, (p.rectangle.x, p.rectangle.y + 2.9), f"similarity {1 - p.novelty:.2f}")
+        found = model.place(case.scene, 0.01)
+        for parent in ("c", "d"):
+            p = min((p for p in found if p.parent.id == parent), key=lambda p: p.novelty)
+            draw.ring(ax, p.rectangle.ring, edgecolor=draw.RESULT, linewidth=1.2, zorder=7)
+            draw.note(ax, (p.rectangle.x + 2, p.rectangle.y), f"similarity\n{1 - p.novelty:.2f}")
         draw.title(ax, f"τ = {tau:g}")
     return figure
 
@@ -138,15 +167,14 @@ def figure_5_12() -> Figure:
 def figure_5_13() -> Figure:
     """A house of two floors is new to what was taught on one."""
     case = arrangements.floors()
-    figure, panels = draw.canvas(1, 1, 8.5, 1.9)
+    figure, panels = draw.canvas(1, 1, 9.5, 2.3)
     ax = panels[0, 0]
     shown_in(ax, case)
     found = case.learned().place(case.scene)
     placed(ax, found)
     for p in found:
-        draw.note(ax, (p.rectangle.x, p.rectangle.y - 3.3), f"score {p.score:.2f}, novelty {p.novelty:.2f}")
-    low, high = ax.get_ylim()
-    ax.set_ylim(low - 1, high)
+        text = f"score {p.score:.2f}\nnovelty {p.novelty:.2f}"
+        draw.note(ax, (p.rectangle.x + 3.2, p.rectangle.y), text, fontsize=5)
     return figure
 
 
