@@ -45,9 +45,10 @@ def pavement() -> Solid:
         frame = plan.frames()[house.id]
         feet += [frame[:2, 3], frame[:2, 3] + house.width * frame[:2, 0]]
     line = shapely.LineString([feet[0] - (12.0, 3.0), *feet, feet[-1] + (9.0, -5.0)])
-    strip = line.buffer(-PAVEMENT, single_sided=True, join_style="mitre")
-    outer = max((strip, line.buffer(PAVEMENT, single_sided=True)), key=lambda s: -s.centroid.y)
-    ring = shapely.get_coordinates(outer.exterior)[:-1]
+    # Its kerb does not step back with single houses.
+    ring = shapely.get_coordinates(line.simplify(1.0).buffer(PAVEMENT, cap_style="flat", join_style="mitre").exterior)[
+        :-1
+    ]
     ring = ring if shapely.LinearRing(ring).is_ccw else ring[::-1]
     return loft([at_height(ring, z) for z in (-KERB, 0.0)], "pavement")
 

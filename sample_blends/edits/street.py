@@ -14,8 +14,6 @@ from .edit import FacadeBox, PlacementEdit
 SHOWN = ("house 1", "house 2")
 #: What spans a facade may be of any size.
 SPANNING = {"aspect_tolerance": inf, "area_tolerance": inf, "tau": 0.5}
-#: What belongs to one other part keeps exactly to it.
-EXACT = {"tau": 0.2}
 #: Windows of a floor: their distance from the ends, and from the floor's foot; and from each other at least.
 MARGIN, SILL_HEIGHT, GAP = 0.95, 0.95, 1.3
 WINDOW = (1.1, 1.7)
@@ -64,14 +62,15 @@ DOOR = (0.8, 1.3, 2.6)
 SHOP_LEFT, SHOP_GAP, SHOP = 2.7, 0.45, 1.7
 
 
-def _shop_middle(id: str, i: int) -> float:
-    x0, x1 = SHOP_LEFT, house(id).width - DOOR[0]
-    count = int((x1 - x0 + SHOP_GAP) / (SHOP + SHOP_GAP) + 1e-9)
-    return x0 + SHOP / 2 + i * ((x1 - x0 - SHOP) / (count - 1) if count > 1 else 0.0)
-
-
-_WINDOWS = (("house 1", 0, 0), ("house 1", 1, 1), ("house 2", 0, 1), ("house 2", 2, 3), ("house 2", 3, 0))
-_SHOPS = (("house 1", 0), ("house 2", 0), ("house 2", 2), ("house 2", 3))
+_WINDOWS = (
+    ("house 1", 0, 0),
+    ("house 1", 1, 1),
+    ("house 2", 0, 1),
+    ("house 2", 1, 2),
+    ("house 2", 2, 3),
+    ("house 2", 3, 0),
+)
+_ROWS = (("house 1", 0), ("house 1", 1), ("house 2", 1), ("house 2", 3))
 
 EDITS = [
     PlacementEdit("ground floor", _across(0.0, GROUND_FLOOR), most=1, options=SPANNING),
@@ -79,13 +78,13 @@ EDITS = [
     PlacementEdit("floor", _across(GROUND_FLOOR, -CORNICE), fit=("scale", "repeat"), most=1, options=SPANNING),
     PlacementEdit(
         "window",
-        (_row("house 1", 0), _row("house 1", 1), _row("house 2", 1), _row("house 2", 3)),
+        tuple(_row(id, floor) for id, floor in _ROWS),
         fit=("repeat", "scale"),
         gap=(GAP, 0.0),
         most=1,
         options=SPANNING,
     ),
-    PlacementEdit("sill", _about(_WINDOWS, 0.7, -1.0, -0.85), threshold=0.65, options=EXACT),
+    PlacementEdit("sill", _about(_WINDOWS, 0.7, -1.0, -0.85), threshold=0.67, options={"tau": 0.2}),
     # Both shutters of a window are one row of two, flush with its ends.
     PlacementEdit(
         "shutter", _about(_WINDOWS, 1.08, -0.85, 0.85), fit=("repeat", "scale"), gap=(1.0, 0.0), threshold=0.3
@@ -101,9 +100,11 @@ EDITS = [
     ),
     PlacementEdit(
         "awning",
-        tuple((id, _shop_middle(id, i) - 0.95, 2.5, _shop_middle(id, i) + 0.95, 3.0) for id, i in _SHOPS),
-        threshold=0.7,
-        options=EXACT,
+        _across(2.5, 3.0, SHOP_LEFT - 0.1, DOOR[0] - 0.1),
+        fit=("repeat", "scale"),
+        gap=(SHOP_GAP - 0.2, 0.0),
+        most=1,
+        options=SPANNING,
     ),
     # Wider than the windows of the row above by as much as they are less far apart: each is below one.
     PlacementEdit(
