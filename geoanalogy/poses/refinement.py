@@ -41,9 +41,16 @@ FALL = 0.7
 
 #: Leading candidates around which is looked for better places, and how far, in half-widths. Where samples disagree the
 #: importance has plateaus with narrow peaks; least squares settle anywhere on them. And the iterations that follow.
-PROBED = (4, 2)
-PROBES = (0.1, 0.3, 0.8, 2.0)
+PROBED = 4
+PROBES = (0.15, 0.4, 1.0, 2.0)
 AGAIN = range(2, ITERATIONS + 1)
+
+#: Leading poses that go on uphill along position and direction, if they come near the best by this share; their steps at
+#: first, in half-widths, and how many there are: least squares may stop short of a narrow peak.
+CLIMBING = 4
+EQUALLY_GOOD = 0.98
+FARTHEST_CLIMB = 0.1
+CLIMBS = 8
 
 
 @dataclass(frozen=True)
@@ -113,8 +120,7 @@ def refine(
     strong = Batch(importances, STRONG)
     rivals = _Rivals(importances, strong.unit, np.ones(len(importances)) if factor is None else np.array(factor))
     found = _descend(strong, start, range(ITERATIONS + 1), rivals)
-    for most in PROBED:
-        found = _probe(strong, found, most)
+    found = _climb(strong, _probe(strong, found))
     value = Batch(importances).importance(found.which, found.position, found.angle)
     return Refined(found.which, found.position, found.angle, value)
 
@@ -207,9 +213,9 @@ def _descend(batch: Batch, poses: Refined, iterations: range, rivals: _Rivals | 
     return best
 
 
-def _probe(batch: Batch, poses: Refined, most: int) -> Refined:
+def _probe(batch: Batch, poses: Refined) -> Refined:
     """Look around the leading poses for better ones, and go on from those."""
-    table = in_turn(poses.which, poses.value)[:, :most]
+    table = in_turn(poses.which, poses.value)[:, :PROBED]
     lead = np.sort(table[table >= 0])
     leading = poses.of(lead)
     c, s = np.cos(leading.angle), np.sin(leading.angle)
@@ -233,6 +239,37 @@ def _probe(batch: Batch, poses: Refined, most: int) -> Refined:
     better = found.value > leading.value[gains]
     moved = lead[gains[better]]
     position[moved], angle[moved], value[moved] = found.position[better], found.angle[better], found.value[better]
+    return Refined(poses.which, position, angle, value)
+
+
+def _climb(batch: Batch, poses: Refined) -> Refined:
+    """Move the leading poses uphill in ever smaller steps."""
+    table = in_turn(poses.which, poses.value)[:, :CLIMBING]
+    value = np.where(table >= 0, poses.value[table], -1.0)
+    # Those that may turn out to be as good as the best are equally well served.
+    lead = np.sort(table[value >= EQUALLY_GOOD * value[:, :1]])
+    best = poses.of(lead)
+    rows = batch.rows(best.which)
+    reach = FARTHEST_CLIMB * batch.unit[best.which]
+    for _ in range(CLIMBS):
+        before = best.value
+        for way in (0, 1, 2):
+            for sign in (1.0, -1.0):
+                angle = best.angle + np.pi / 2 * way
+                step = sign * reach[:, :2] * np.column_stack([np.cos(angle), np.sin(angle)])
+                position = best.position if way == 2 else best.position + step
+                angle = best.angle + sign * reach[:, 2] if way == 2 else best.angle
+                value = batch.total(rows, position, angle)
+                better = value > best.value
+                best = Refined(
+                    best.which,
+                    np.where(better[:, None], position, best.position),
+                    np.where(better, angle, best.angle),
+                    np.maximum(value, best.value),
+                )
+        reach = np.where((best.value > before)[:, None], reach, reach / 2)
+    position, angle, value = poses.position.copy(), poses.angle.copy(), poses.value.copy()
+    position[lead], angle[lead], value[lead] = best.position, best.angle, best.value
     return Refined(poses.which, position, angle, value)
 
 
