@@ -87,14 +87,14 @@ def walk(s: Sheet) -> Sequence[Box]:
 def record(r: Recorder) -> None:
     """Record the operations on the plots of the recorder's scene."""
     steep = Roof("mansard", float(np.radians(15.0)), float(np.radians(68.0)), 2.4)
-    r.place("block", PLOT, body, 5, max_per={PLOT: 1})
-    r.place("stairs", PLOT, risalit, 5, max_per={PLOT: 1})
+    r.place("block", PLOT, body, 4, max_per={PLOT: 1})
+    r.place("stairs", PLOT, risalit, 4, max_per={PLOT: 1})
     old, new = r.select(PLOT, (1.0, 1.0))
     r.at = (old,)
     r.extrude("block", 12.4, (0.77, 1.23), roof=steep, side="wall")
     mansards = r.at
     r.at = (new,)
-    r.place("wing", PLOT, wing, 5, max_per={PLOT: 1})
+    r.place("wing", PLOT, wing, 4, max_per={PLOT: 1})
     r.extrude("block", 12.4, (0.77, 1.23), side="wall", top="terrace")
     r.extrude("wing", 9.3, (0.7, 1.0), side="wall", top="wing terrace")
     r.at = (*mansards, *r.at)
@@ -102,14 +102,14 @@ def record(r: Recorder) -> None:
     r.merge("block", "siblings")
 
     front = "street stair wall"
-    r.place("entrance", front, entrance, 5, max_per={front: 1})
+    r.place("entrance", front, entrance, 4, max_per={front: 1})
     r.recess("entrance", 0.5, "entrance door")
-    r.place("canopy", front, over("entrance", 0.5, 0.1, 0.3), 5, max_per={front: 1})
+    r.place("canopy", front, over("entrance", 0.5, 0.1, 0.3), 4, max_per={front: 1})
     r.attach("canopy", 1.2)
     windows(r, "stair window", front, stair_windows, (1.6, 1.5), (1.0, 1.5))
     windows(r, "window", STREET, street_windows, (1.5, 1.6), (1.3, 1.5))
     bars(r, "window")
-    r.place("cornice", STREET, cornice, 5, max_per={STREET: 1})
+    r.place("cornice", STREET, cornice, 4, max_per={STREET: 1})
     r.attach("cornice", 0.2)
 
     windows(r, "side window", SIDE, side_windows, (1.1, 1.6), (2.4, 1.5))
@@ -125,9 +125,9 @@ def record(r: Recorder) -> None:
     r.merge("attic")
     r.place("plant", "attic roof", plant, 4, max_per={"attic roof": 1})
     r.attach("plant", 1.1)
-    r.place("parking", PLOT, parking, 5, max_per={PLOT: 1})
+    r.place("parking", PLOT, parking, 4, max_per={PLOT: 1})
     r.extrude("parking", 0.06)
-    r.place("hedge", PLOT, hedge, 6, max_per={PLOT: 2})
+    r.place("hedge", PLOT, hedge, 4, max_per={PLOT: 2})
     r.extrude("hedge", 0.9, (0.8, 1.3))
-    r.place("walk", PLOT, walk, 5, max_per={PLOT: 1})
+    r.place("walk", PLOT, walk, 4, max_per={PLOT: 1})
     r.extrude("walk", 0.05)

@@ -89,7 +89,7 @@ def path(s: Sheet) -> Sequence[Box]:
 
 def record(r: Recorder) -> None:
     """Record the operations on the plots of the recorder's scene."""
-    r.place("house", PLOT, body, 5, max_per={PLOT: 1})
+    r.place("house", PLOT, body, 4, max_per={PLOT: 1})
     without, winged = r.select(PLOT, (1.0, 1.0))
     r.at = (winged,)
     r.place("wing", PLOT, wing, 4, max_per={PLOT: 1})
@@ -98,9 +98,9 @@ def record(r: Recorder) -> None:
     r.extrude("house", 2.9, roof=Roof("gable", PITCH), side="wall")
     r.merge("house", "siblings")
 
-    r.place("door", STREET, door, 5, max_per={STREET: 1})
+    r.place("door", STREET, door, 4, max_per={STREET: 1})
     r.recess("door", 0.25, "front door")
-    r.place("canopy", STREET, over("door", 0.3, 0.12, 0.24), 5, max_per={STREET: 1})
+    r.place("canopy", STREET, over("door", 0.3, 0.12, 0.24), 4, max_per={STREET: 1})
     r.attach("canopy", 0.9)
     # Panels, half of them with shutters, hold the windows of the front.
     r.place(
@@ -138,7 +138,7 @@ def record(r: Recorder) -> None:
 
     r.place("shed", PLOT, shed, 4, max_per={PLOT: 1})
     r.extrude("shed", 2.1, roof=Roof("hip", PITCH))
-    r.place("hedge", PLOT, hedges, 6, max_per={PLOT: 2})
+    r.place("hedge", PLOT, hedges, 4, max_per={PLOT: 2})
     r.extrude("hedge", 1.1, (0.8, 1.3))
     r.place("path", PLOT, path, 4, max_per={PLOT: 1})
     r.extrude("path", 0.05)

@@ -54,7 +54,9 @@ def level_bar(thickness: float) -> Draw:
 
 def windows(r: Recorder, label: str, on: str, draw: Draw, size: tuple[float, float], gap: tuple[float, float]) -> None:
     """A field of windows, pushed in, with sills: six operations."""
-    r.place(label, on, draw, 5, size=size, gap=gap, fit=("repeat", "repeat"), max_per={on: 1})
+    r.place(
+        label, on, draw, 4, size=size, gap=gap, fit=("repeat", "repeat"), max_per={on: 1}, forbid_intersections=True
+    )
     r.recess(label, REVEAL, f"{label} glass")
     pane(r, label)
 

@@ -112,11 +112,16 @@ class Recorder:
         """Draw examples on the first few sheets that they belong on, and place what is like them."""
         options = {name: settings.pop(name) for name in OPTIONS if name in settings}
         drawn: list[ga.Example] = []
+        distinct: dict[tuple[float, float], Sheet] = {}
+        again = []  # a second sheet of the same size teaches nothing, but one example alone is ambiguous
         for sheet in self.sheets(on):
+            if distinct.setdefault((round(sheet.width, 2), round(sheet.height, 2)), sheet) is not sheet:
+                again.append(sheet)
+        for k, sheet in enumerate([*distinct.values(), *again]):
+            if len(drawn) >= examples or (k >= len(distinct) and len(drawn) >= 2):
+                break
             boxes = [box for box in draw(sheet) if box[2] > box[0] and box[3] > box[1]]  # where there is room
             drawn += [ga.Example(sheet.scene, sheet.rectangle(box)) for box in boxes]
-            if len(drawn) >= examples:
-                break
         settings = {"mesh": "", "size": (1.0, 1.0), "threshold": 0.6, **settings}
         operation = RectanglePlacement.learned(
             drawn[: max(examples, 1)],

@@ -84,7 +84,7 @@ def path(s: Sheet) -> Sequence[Box]:
 
 def record(r: Recorder) -> None:
     """Record the operations on the plots of the recorder's scene."""
-    r.place("house", PLOT, body, 5, max_per={PLOT: 1})
+    r.place("house", PLOT, body, 4, max_per={PLOT: 1})
     r.extrude("house", 5.8, roof=Roof("hip", PITCH, overhang=0.45), side="wall")
     with_garage, with_bay = r.select(PLOT, (1.0, 1.0))
     r.at = (with_garage,)
@@ -97,9 +97,9 @@ def record(r: Recorder) -> None:
     r.at = (*garages, *r.at)
     r.merge("house", "siblings")
 
-    r.place("door", STREET, door, 5, max_per={STREET: 1})
+    r.place("door", STREET, door, 4, max_per={STREET: 1})
     r.recess("door", 0.3, "front door")
-    r.place("canopy", STREET, over("door", 0.35, 0.1, 0.25), 5, max_per={STREET: 1})
+    r.place("canopy", STREET, over("door", 0.35, 0.1, 0.25), 4, max_per={STREET: 1})
     r.attach("canopy", 1.0)
     windows(r, "window", STREET, ground_windows, (1.2, 1.4), (0.9, 1.0))
     windows(r, "bedroom window", STREET, upper_windows, (1.2, 1.4), (1.0, 1.0))
@@ -112,14 +112,14 @@ def record(r: Recorder) -> None:
     r.recess("bay window", 0.15, "bay glass")
 
     windows(r, "side window", SIDE, upper_windows, (1.0, 1.4), (2.2, 1.0))
-    r.place("terrace door", GARDEN, terrace_door, 5, max_per={GARDEN: 1})
+    r.place("terrace door", GARDEN, terrace_door, 4, max_per={GARDEN: 1})
     r.recess("terrace door", 0.2, "terrace glass")
-    r.place("balcony", GARDEN, balcony, 5, max_per={GARDEN: 1})
+    r.place("balcony", GARDEN, balcony, 4, max_per={GARDEN: 1})
     r.attach("balcony", 1.3, top="balcony front")
-    r.place("balcony door", GARDEN, balcony_door, 5, max_per={GARDEN: 1})
+    r.place("balcony door", GARDEN, balcony_door, 4, max_per={GARDEN: 1})
     r.recess("balcony door", 0.2, "balcony glass")
 
-    r.place("hedge", PLOT, hedges, 5, max_per={PLOT: 1})
+    r.place("hedge", PLOT, hedges, 4, max_per={PLOT: 1})
     r.extrude("hedge", 1.2, (0.8, 1.3))
-    r.place("path", PLOT, path, 5, max_per={PLOT: 1})
+    r.place("path", PLOT, path, 4, max_per={PLOT: 1})
     r.extrude("path", 0.05)
