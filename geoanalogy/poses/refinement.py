@@ -45,8 +45,8 @@ PROBED = 4
 PROBES = (0.15, 0.4, 1.0, 2.0)
 AGAIN = range(2, ITERATIONS + 1)
 
-#: Leading poses that go on uphill along position and direction, if they come near the best by this share; their steps at
-#: first, in half-widths, and how many there are: least squares may stop short of a narrow peak.
+#: Leading poses that go on uphill along position and direction, if they come near the best by this share; their steps
+#: at first, in half-widths, and how many there are: least squares may stop short of a narrow peak.
 CLIMBING = 4
 EQUALLY_GOOD = 0.98
 FARTHEST_CLIMB = 0.1
