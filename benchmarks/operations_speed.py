@@ -123,14 +123,14 @@ def _naively(solid: Solid) -> None:
 def tables(full: bool = False) -> Iterator[Table]:
     """The houses, then the masses."""
     header = ("type", "plots", "operations", "elements", "all", "placing", "extruding", "booleans", "known surfaces")
-    rows, whole, done = houses(False, 10)
+    rows, whole, done = houses(False, 10 if full else 3)
     per = 1000 * whole / done
     note = (
         f"{whole:.1f} s for {done} operations on one house each, {per:.1f} ms an operation: 30 houses by 45 operations "
         f"take {1.35 * per:.1f} s."
     )
     yield Table("Houses by recorded trees", header, rows, note)
-    count = 10 if full else 3
+    count = 3 if full else 2
     _, with_memory, _ = houses(False, count)
     again, without, _ = houses(True, count)
     yield Table(
@@ -140,8 +140,9 @@ def tables(full: bool = False) -> Iterator[Table]:
         f"On {count} plots of each type: {without:.1f} s instead of {with_memory:.1f} s.",
     )
     masses = []
-    for name, look in (("as the tree does", lambda _: None), ("naively", _naively)):
-        results = [mass(seed, look) for seed in range(40 if full else 12)]
+    routes = (("as the tree does", lambda _: None, 40 if full else 12), ("naively", _naively, 3))
+    for name, look, count in routes:
+        results = [mass(seed, look) for seed in range(count)]
         per_operation = np.median([taken for taken, _ in results]) / OPERATIONS * 1000
         masses.append((name, len(results), OPERATIONS, f"{per_operation:.2f} ms", sum(not ok for _, ok in results)))
     yield Table("Random masses", ("route", "masses", "operations", "an operation", "with an open edge"), masses)

@@ -67,11 +67,6 @@ def balcony_door(s: Sheet) -> Sequence[Box]:
     return [(x0 + 0.9, y1, x1 - 0.9, y1 + 2.1) for x0, _, x1, y1 in s.boxes("balcony")]
 
 
-def railing(s: Sheet) -> Sequence[Box]:
-    x0, y0, x1, _ = s.edges
-    return [(x0, y0, x1, y0 + 0.08)]
-
-
 def hedges(s: Sheet) -> Sequence[Box]:
     x0, _, x1, y1 = s.edges
     return [(x0 + 0.2, y1 - 0.9, x1 - 0.2, y1 - 0.2)]
