@@ -45,4 +45,5 @@ def wrap(difference: NDArray[Real], period: NDArray[Real] | float = 2 * np.pi) -
     -------
     ndarray
     """
-    return difference - period * np.rint(difference / period)  # several times as fast as the remainder
+    # Several times as fast as the remainder.
+    return np.asarray(difference - period * np.rint(difference / period), dtype=difference.dtype)

@@ -193,7 +193,7 @@ class Stretch:
         else:
             gaps = math.floor(count + LAST_SLACK)
         # All round, the place after the last gap is the start again.
-        return spacing * np.arange(max(1, gaps) if closed else gaps + 1)
+        return np.asarray(spacing * np.arange(max(1, gaps) if closed else gaps + 1), dtype=np.float64)
 
     def points(self, places: Array) -> Array:
         """Positions.

@@ -196,10 +196,10 @@ def _best_of(
     share = block.period or len(block.course.points)
     rows, columns = np.indices(here.shape)
     period = float(share if source.closed or block.period else 10**6)
-    diagonal = (columns - rows * (share / count)) % period
+    diagonal = np.asarray((columns - rows * (share / count)) % period, dtype=np.float64)
     out: list[Alignment] = []
     while len(out) < keep:
-        i, j = np.unravel_index(int(here.argmax()), here.shape)
+        i, j = divmod(int(here.argmax()), here.shape[1])
         value = float(here[i, j])
         if value < 0.15 * GAIN:
             break

@@ -102,7 +102,7 @@ def described(drawing: Drawing, query: Query, mirrored: bool, largest_scale: flo
                 i, j = i[good], j[good]
                 image = np.conj(point[j]) if flip else point[j]
                 angle = (-heading[j] if flip else heading[j]) - source_heading[i] + (np.pi if half else 0.0)
-                factor = every.walk[j] / own.walk[i] * np.exp(1j * angle)
+                factor = np.asarray(every.walk[j] / own.walk[i] * np.exp(1j * angle), dtype=np.complex128)
                 parts.append(Correspondences(source[i], image, factor, np.full(len(i), flip), h[i, j].astype(float)))
     return Correspondences.joined(parts)
 

@@ -281,7 +281,7 @@ def _separate(found: list[tuple[float, RegionMatch, Fit]], fitter: Fitter, branc
         if branches:
             repeats = any(own[at].mean() > ALL_SHARED for own in taken)
         else:
-            repeats = bool(taken) and np.any(taken, axis=0)[at].mean() > SHARED
+            repeats = bool(taken) and bool(np.any(taken, axis=0)[at].mean() > SHARED)
         if not repeats:
             taken.append(_lines_of(fit, fitter))
             yield match

@@ -208,7 +208,7 @@ def _grid(shape: shapely.Geometry, count: int) -> tuple[Complex, float]:
 def _centred(low: float, high: float, step: float) -> NDArray[np.float64]:
     """Values with a given step, symmetric about the middle of an interval."""
     n = max(1, int((high - low) / step))
-    return (low + high) / 2 + (np.arange(n) - (n - 1) / 2) * step
+    return np.asarray((low + high) / 2 + (np.arange(n) - (n - 1) / 2) * step, dtype=np.float64)
 
 
 def _complex(geometry: shapely.Geometry) -> Complex:

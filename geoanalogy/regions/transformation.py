@@ -125,7 +125,8 @@ def smoothness(nodes: Nodes) -> tuple[Complex, Complex]:
     shift[pair, j], shift[pair, i], shift[pair, m + i] = 1.0, -1.0, -step
     turn = np.zeros((len(i), 2 * m), complex)
     turn[pair, m + i], turn[pair, m + j] = nodes.spacing, -nodes.spacing
-    return (shift.conj().T * share) @ shift, (turn.conj().T * share) @ turn
+    penalties = [np.asarray((d.conj().T * share) @ d, dtype=np.complex128) for d in (shift, turn)]
+    return penalties[0], penalties[1]
 
 
 def gradient(position: Complex, factor: Complex, nodes: Nodes) -> tuple[Floats, Floats]:
