@@ -14,7 +14,7 @@ from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..relations.elements import Elements
 from ..tolerances import PARALLEL_SHARE
-from .boxes import gaps_between
+from .boxes import areas, gaps_between, shared_areas
 
 Array = NDArray[np.float64]
 
@@ -128,11 +128,9 @@ class Arrangement:
         -------
         ndarray of shape (n,)
         """
-        size = np.prod(boxes[:, 2:] - boxes[:, :2], axis=1)
+        size = areas(boxes)
         if self.parent_fills_box:
-            low = np.maximum(boxes[:, :2], self.parent_box[:2])
-            high = np.minimum(boxes[:, 2:], self.parent_box[2:])
-            inside = np.prod(np.clip(high - low, 0.0, None), axis=1)
+            inside = shared_areas(boxes, self.parent_box[None])[:, 0]
         else:
             shape = shapely.Polygon(
                 self.turned(self.parent.points), [self.turned(np.asarray(h)) for h in self.parent.holes]

@@ -1,5 +1,7 @@
 """Rows, columns and rhythm: what people place by the dozen stands in lines at regular distances."""
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -96,7 +98,17 @@ def beats(extents_along: Array, low: float, high: float) -> tuple[Array, Array]:
         In the rhythm each belongs to, 0 to 1: the share of rows that keep it, times the share of its beats between the
         outermost rows that are rows, times how usual its step is.
     """
-    rows = rows_of(extents_along)
+    return _beats(tuple((float(a), float(b)) for a, b in extents_along), float(low), float(high))
+
+
+#: Sets of rows whose beats are remembered: every look at an arrangement asks for those of its examples again.
+BEATS_KEPT = 64
+
+
+@lru_cache(maxsize=BEATS_KEPT)
+def _beats(extents_along: tuple[tuple[float, float], ...], low: float, high: float) -> tuple[Array, Array]:
+    """`beats` of extents as numbers; the arrays are shared by all who ask."""
+    rows = rows_of(np.array(extents_along, dtype=np.float64).reshape(-1, 2))
     nothing = np.zeros((0, 2)), np.zeros(0)
     if len(rows) < 2:
         return nothing

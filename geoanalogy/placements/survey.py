@@ -376,13 +376,16 @@ def _continued(boxes: Array, certainty: Array, present: Array, arrangement: Arra
     every = np.concatenate([present, boxes[likely]])
     if len(every) < 2:
         return np.zeros((0, 4))
-    x, y = (rows_of(every[:, [a, a + 2]]) for a in (0, 1))
     box = arrangement.parent_box
-    meetings = crossings(
-        *(np.concatenate([r, rhythm(r), beats(r, box[a], box[a + 2])[0]]) for a, r in enumerate((x, y)))
-    )
     weight = np.concatenate([np.ones(len(present)), certainty[likely]])
-    support = np.prod([(interval_overlap(meetings, every, a) * weight).sum(axis=1) for a in (0, 1)], axis=0)
+    lines, supports = [], []
+    for a in (0, 1):
+        rows = rows_of(every[:, [a, a + 2]])
+        lines.append(np.concatenate([rows, rhythm(rows), beats(rows, box[a], box[a + 2])[0]]))
+        along = interval_overlap(np.repeat(lines[a], 2, axis=1), every, a)
+        supports.append((along * weight).sum(axis=1))
+    meetings = crossings(*lines)
+    support = (supports[0][:, None] * supports[1][None]).ravel()
     best = np.argsort(-support, kind="stable")[: MOST_MET * GROWN]
     meetings = meetings[best]
     new = union_overlap(meetings, boxes).max(axis=1, initial=0.0) < SAME
