@@ -22,8 +22,8 @@ def areas(boxes: Array) -> Array:
     -------
     ndarray
     """
-    area: Array = (boxes[..., 2] - boxes[..., 0]) * (boxes[..., 3] - boxes[..., 1])
-    return area
+    size = boxes[..., 2:] - boxes[..., :2]
+    return np.asarray(np.multiply(size[..., 0], size[..., 1]))
 
 
 def _paired(between: Callable[[Array, Array], Array], a: Array, b: Array) -> Array:
