@@ -7,6 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .signature import PARENT_BOX, Signature
+from .similarity import distinct_extents
+from .turns import TURNS, both_ways
 
 Array = NDArray[np.float64]
 
@@ -92,6 +94,37 @@ class Habits:
             kept += (habit.weight * agreement).sum(axis=3)
             explained = np.maximum(explained, (tight * agreement).max(axis=3))
         return kept, np.where(exact, explained, 1.0)
+
+    def turned(self, seen: Signature) -> Array:
+        """How well boxes keep to the habits, all edges on average, in all eight turns of what surrounds them.
+
+        Parameters
+        ----------
+        seen : Signature
+            Of n boxes.
+
+        Returns
+        -------
+        ndarray of shape (8, n)
+            In the order of `TURNS`.
+        """
+        kept = np.zeros((len(TURNS), len(seen.boxes[PARENT_BOX])))
+        for key, habit in self.of.items():
+            if key not in seen.boxes:
+                continue
+            along = {}
+            for way, values in both_ways(seen.boxes[key][:, :1]).items():
+                first, group = distinct_extents(values)
+                edges = values[first, 0][:, [0, 2]]
+                for axis in (0, 1):
+                    off = edges - habit.middle[axis]
+                    off[..., 3] *= edges[..., 0] - edges[..., 1]
+                    value = np.exp(-0.5 * (off / (habit.scatter[axis] + self.widths[axis])) ** 2)
+                    weighted = np.where(np.isnan(value), 0.0, value) * habit.weight[axis]
+                    along[way, axis] = weighted.sum(axis=(1, 2))[group]
+            for i, (mirrored_x, mirrored_y, swapped) in enumerate(TURNS):
+                kept[i] += along[(0, mirrored_x), int(swapped)] + along[(1, mirrored_y), 1 - int(swapped)]
+        return kept / 4
 
     @cached_property
     def exact(self) -> dict[str, NDArray[np.bool_]]:

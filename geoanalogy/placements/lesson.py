@@ -11,9 +11,9 @@ from .boxes import BETWEEN
 from .habits import Habits
 from .options import PlacementOptions
 from .signature import BOX, PARENT_BOX, SAMPLE_COUNTS, Signature
-from .similarity import best_assignment, box_agreement, length_widths, outline_agreement
+from .similarity import best_assignment, box_agreement, length_widths, outline_agreement, weighted_agreement
 from .taught import Taught
-from .turns import in_units, parent_sizes
+from .turns import TURNS, both_ways, in_units, parent_sizes, turned_outlines
 
 Array = NDArray[np.float64]
 
@@ -213,29 +213,91 @@ class Lesson:
                 nothing = np.zeros((len(seen.boxes[PARENT_BOX]), len(values)))
                 found[key] = Match(nothing, nothing, nothing, nothing, key in self.kept.boxes)
                 continue
-            agreement = self._agreement(key, there, kept)
-            weight = self.weights[key][:, :neighbours].astype(np.float32)
+            weight = self._weights32[key][:, :neighbours]
             if key in self.kept.boxes:
-                by_axis = np.einsum("nmpqxsr,mqxsr->xnmpq", agreement, weight)
-                utility = by_axis.sum(axis=0)
+                along = [self.along(key, there[:, :, axis], axis, neighbours) for axis in (0, 1)]
                 whole = np.maximum(weight.sum(axis=(3, 4)).transpose(2, 0, 1), 1e-9)  # axis, example, element
-                x, y = by_axis / whole[:, None, :, None, :]
-                first = x[..., 0] * y[..., 0]
+                x, y = (along[axis][..., 0] / whole[axis, :, 0][:, None] for axis in (0, 1))
                 found[key] = Match(
-                    best_assignment(utility)[0].astype(np.float64),
-                    x[..., 0].max(axis=2).astype(np.float64),
-                    y[..., 0].max(axis=2).astype(np.float64),
-                    first.max(axis=2).astype(np.float64),
+                    best_assignment(along[0] + along[1])[0].astype(np.float64),
+                    x.max(axis=2).astype(np.float64),
+                    y.max(axis=2).astype(np.float64),
+                    (x * y).max(axis=2).astype(np.float64),
                     True,
                 )
             else:
-                utility = np.einsum("nmpqsr,mqsr->nmpq", agreement, weight)
-                total = best_assignment(utility)[0].astype(np.float64)
+                total = self._outline_total(key, there, neighbours)
                 there = np.isfinite(kept[:, :, 0, 0])
                 whole = np.maximum((weight.sum(axis=(2, 3)) * there).sum(axis=1), 1e-9)
                 share = np.minimum(total / whole, 1.0)
                 found[key] = Match(total, share, share, share, False)
         return found
+
+    def along(self, key: str, values: Array, axis: int, neighbours: int | None = None) -> NDArray[Any]:
+        """Weighted agreement of boxes with every example along one axis, in one group of boxes.
+
+        Parameters
+        ----------
+        key : str
+            Of the group.
+        values : ndarray of shape (n, p, 3, 4)
+            Box coordinates of the boxes.
+        axis : int
+            Of the examples.
+        neighbours : int, optional
+            See `match`.
+
+        Returns
+        -------
+        ndarray of shape (n, m, p, q), float32
+        """
+        kept, weights = self.kept.boxes[key][:, :neighbours, axis], self._weights32[key][:, :neighbours, axis]
+        return weighted_agreement(values, kept, weights, self.widths[axis], self.options.tau)
+
+    @cached_property
+    def _weights32(self) -> dict[str, NDArray[Any]]:
+        return {key: weight.astype(np.float32) for key, weight in self.weights.items()}
+
+    def turned_similarities(self, seen: Signature, neighbours: int) -> Array:
+        """`similarities` of boxes with all examples, in all eight turns of what surrounds the boxes.
+
+        A turn mirrors and swaps axes, along each of which boxes and examples agree for itself: eight agreements are
+        those of all eight turns.
+
+        Parameters
+        ----------
+        seen : Signature
+            Of n boxes; outlines count where it has them.
+        neighbours : int
+            See `match`.
+
+        Returns
+        -------
+        ndarray of shape (8, n, m)
+            In the order of `TURNS`.
+        """
+        total = np.zeros((len(TURNS), len(seen.boxes[PARENT_BOX]), len(self.taught)))
+        for key in self.kept.boxes:
+            if key not in seen.boxes:
+                continue
+            ways = both_ways(seen.boxes[key])
+            along = {(way, axis): self.along(key, ways[way], axis, neighbours) for way in ways for axis in (0, 1)}
+            for i, (mirrored_x, mirrored_y, swapped) in enumerate(TURNS):
+                x, y = along[(0, mirrored_x), int(swapped)], along[(1, mirrored_y), 1 - int(swapped)]
+                total[i] += best_assignment(x + y)[0]
+        if seen.outlines:
+            for i, turn in enumerate(TURNS):
+                there = turned_outlines(seen.outlines, turn)
+                for key in self.kept.outlines:
+                    if key in there:
+                        total[i] += self._outline_total(key, there[key], neighbours)
+        return total / self._whole
+
+    def _outline_total(self, key: str, there: Array, neighbours: int | None) -> Array:
+        """Utility of the best assignment of the outlines of one group, shape (n, m)."""
+        agreement = self._agreement(key, there, self.kept.outlines[key][:, :neighbours])
+        utility = np.einsum("nmpqsr,mqsr->nmpq", agreement, self._weights32[key][:, :neighbours])
+        return best_assignment(utility)[0].astype(np.float64)
 
     @cached_property
     def _among_examples(self) -> dict[str, Match]:

@@ -15,7 +15,7 @@ from .boxes import union_overlap
 from .candidates import crossings, extents
 from .lesson import Lesson
 from .signature import BOX, PARENT_BOX, Signature
-from .turns import TURNS, in_units, parent_shares, parent_sizes, turned, turned_boxes, turned_shares
+from .turns import TURNS, in_units, parent_shares, parent_sizes, turned_boxes, turned_shares
 
 Array = NDArray[np.float64]
 
@@ -128,9 +128,9 @@ def copy_evidence(
     relative = in_units(seen, unit)
     whole = lesson.relative
     # A quick look is at boxes alone: outlines in eight turns would cost more than all the rest.
-    views = [turned(relative if neighbours > 1 else Signature(relative.boxes, {}), turn) for turn in TURNS]
-    similar = np.stack([whole.similarities(whole.match(view, neighbours))[:, p] for view in views])
-    habit = np.stack([whole.habits.kept_to(view)[0].mean(axis=(1, 2)) for view in views])
+    view = relative if neighbours > 1 else Signature(relative.boxes, {})
+    similar = whole.turned_similarities(view, neighbours)[:, :, p]
+    habit = whole.habits.turned(view)
     shares = (boxes - np.tile(arrangement.parent_box[:2], 2)) / np.tile(size, 2)
     taught = parent_shares(lesson.kept, p)
     overlaps = np.stack([union_overlap(shares, turned_shares(taught, turn)) for turn in TURNS])

@@ -58,11 +58,79 @@ def box_agreement(a: Array, b: Array, widths: Array, tau: float) -> NDArray[Any]
     ndarray of shape (n, m, p, q, 2, 3, 4), float32
         Between 0 and 1; 0 where either is a nil element.
     """
-    scale = np.empty((2, 1, 4), dtype=np.float32)
-    scale[:, :, :3] = widths[:2, None, None]
-    scale[:, :, 3] = tau * SIGMA[Kind.RATIO]
+    return np.stack([axis_agreement(a[:, :, i], b[:, :, i], widths[i], tau) for i in (0, 1)], axis=4)
+
+
+def axis_agreement(a: Array, b: Array, width: float, tau: float) -> NDArray[Any]:
+    """`box_agreement` along one axis.
+
+    Parameters
+    ----------
+    a : ndarray of shape (n, p, 3, 4)
+    b : ndarray of shape (m, q, 3, 4)
+    width : float
+        Of the Gaussians of lengths along the axis, scene units.
+    tau : float
+
+    Returns
+    -------
+    ndarray of shape (n, m, p, q, 3, 4), float32
+    """
+    scale = np.array([width, width, width, tau * SIGMA[Kind.RATIO]], dtype=np.float32)
     x, y = _apart((a / scale).astype(np.float32), (b / scale).astype(np.float32))
     return _gaussian(x[:, None, :, None] - y[None, :, None])
+
+
+def weighted_agreement(a: Array, b: Array, weights: NDArray[Any], width: float, tau: float) -> NDArray[Any]:
+    """Agreement along one axis, summed over positions and coordinates by weights.
+
+    Candidates are crossings of extents, and many share one along the axis: each is compared once.
+
+    Parameters
+    ----------
+    a : ndarray of shape (n, p, 3, 4)
+    b : ndarray of shape (m, q, 3, 4)
+    weights : ndarray of shape (m, q, 3, 4), float32
+    width : float
+    tau : float
+        See `axis_agreement`.
+
+    Returns
+    -------
+    ndarray of shape (n, m, p, q), float32
+    """
+    first, group = distinct_extents(a)
+    agreement = axis_agreement(a[first], b, width, tau)
+    return np.einsum("nmpqsr,mqsr->nmpq", agreement, weights)[group]
+
+
+def distinct_extents(values: Array) -> tuple[NDArray[np.intp] | slice, NDArray[np.intp] | slice]:
+    """Which of many boxes differ in their coordinates along one axis, relative to their nearest element.
+
+    Parameters
+    ----------
+    values : ndarray of shape (n, p, 3, 4)
+
+    Returns
+    -------
+    first : ndarray of int, or slice
+        One of the boxes of each kind; all where finding them is no less work than they are.
+    group : ndarray of shape (n,) of int, or slice
+        Its kind, by box.
+    """
+    if values.shape[1] > 1 or len(values) < FEW_BOXES:
+        return slice(None), slice(None)
+    group = np.zeros(len(values), dtype=np.intp)
+    # From the element's minimum, and its extent: the other coordinates follow.
+    for column in (values[:, 0, 0, 0], values[:, 0, 2, 0], values[:, 0, 0, 1]):
+        known, number = np.unique(column, return_inverse=True)
+        group = group * len(known) + number.ravel()
+    _, first, group = np.unique(group, return_index=True, return_inverse=True)
+    return first, group.ravel()
+
+
+#: Boxes below which all are compared.
+FEW_BOXES = 64
 
 
 def outline_agreement(key: str, a: Array, b: Array, widths: Array, tau: float) -> NDArray[Any]:
@@ -134,6 +202,8 @@ def best_assignment(utility: Array) -> tuple[Array, NDArray[np.intp]]:
         The column of each row.
     """
     k = utility.shape[-1]
+    if k == 1:
+        return utility[..., 0, 0], np.zeros(utility.shape[:-1], dtype=np.intp)
     flat = utility.reshape(-1, k, k)
     rows = np.arange(k)
     if k <= MOST_TRIED:

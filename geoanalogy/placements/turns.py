@@ -57,18 +57,35 @@ def turned_boxes(values: Array, turn: tuple[int, int, bool]) -> Array:
     return np.stack(parts[::-1] if turn[2] else parts, axis=-3)
 
 
-def turned(seen: Signature, turn: tuple[int, int, bool]) -> Signature:
-    """The feature vectors that boxes would have in a mirrored or turned copy of their surroundings.
+def both_ways(values: Array) -> dict[tuple[int, int], Array]:
+    """Box coordinates along each axis, as they are and mirrored: every turn consists of two of these.
 
     Parameters
     ----------
-    seen : Signature
+    values : ndarray of shape (n, k, 2, 3, 4)
+        By axis, position and coordinate.
+
+    Returns
+    -------
+    dict of (axis, mirrored) to ndarray of shape (n, k, 3, 4)
+    """
+    along = {(axis, 0): values[:, :, axis] for axis in (0, 1)}
+    return along | {(axis, 1): flipped(value) for (axis, _), value in along.items()}
+
+
+def turned_outlines(outlines: dict[str, Array], turn: tuple[int, int, bool]) -> dict[str, Array]:
+    """Relations of outlines that boxes would have in a mirrored or turned copy of their surroundings.
+
+    Parameters
+    ----------
+    outlines : dict of str to ndarray of shape (n, k, 5, r)
+        See `Signature`.
     turn : tuple
         One of `TURNS`.
 
     Returns
     -------
-    Signature
+    dict of str to ndarray of shape (n, k, 5, r)
     """
     samples = np.arange(5)
     for axis in (0, 1):
@@ -77,8 +94,8 @@ def turned(seen: Signature, turn: tuple[int, int, bool]) -> Signature:
     if turn[2]:
         samples = samples[_SWAPPED_SAMPLES]
     reversed_ = (turn[0] + turn[1] + turn[2]) % 2 == 1  # a reflection: every ring runs the other way
-    outlines = {}
-    for key, values in seen.outlines.items():
+    found = {}
+    for key, values in outlines.items():
         moved = values[:, :, samples]
         if reversed_:
             for i, name in enumerate(outline_relations_of(key)):
@@ -86,8 +103,8 @@ def turned(seen: Signature, turn: tuple[int, int, bool]) -> Signature:
                     moved[..., i] = 1.0 - moved[..., i]
                 elif name == "corner ratio":  # beyond the corner's edges it goes on from 1 to 2 = 0
                     moved[..., i] = (1.0 - moved[..., i]) % 2.0
-        outlines[key] = moved
-    return Signature({key: turned_boxes(values, turn) for key, values in seen.boxes.items()}, outlines)
+        found[key] = moved
+    return found
 
 
 def in_units(seen: Signature, units: Array | float) -> Signature:

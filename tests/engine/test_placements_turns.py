@@ -6,15 +6,17 @@ from placement_scenes import polygon
 
 import geoanalogy as ga
 from geoanalogy.placements.arrangement import arrangement_of
+from geoanalogy.placements.lesson import Lesson
 from geoanalogy.placements.one_each import middles
-from geoanalogy.placements.signature import PARENT_BOX, signature
+from geoanalogy.placements.signature import PARENT_BOX, Signature, signature
+from geoanalogy.placements.similarity import distinct_extents
 from geoanalogy.placements.turns import (
     TURNS,
     in_units,
     parent_shares,
     parent_sizes,
-    turned,
     turned_boxes,
+    turned_outlines,
     turned_shares,
 )
 
@@ -46,6 +48,11 @@ def boxes_in(turn, scale=1.0):
     return np.hstack([corners.min(axis=0), corners.max(axis=0)])
 
 
+def turned(seen, turn):
+    boxes = {key: turned_boxes(values, turn) for key, values in seen.boxes.items()}
+    return Signature(boxes, turned_outlines(seen.outlines, turn))
+
+
 @pytest.mark.parametrize("turn", TURNS)
 @pytest.mark.parametrize("scale", [1.0, 2.5])
 def test_a_turned_feature_vector_is_that_of_the_turned_room(turn, scale):
@@ -56,6 +63,33 @@ def test_a_turned_feature_vector_is_that_of_the_turned_room(turn, scale):
         assert here.boxes[key] == pytest.approx(values, abs=1e-9, nan_ok=True)
     for key, values in there.outlines.items():
         assert here.outlines[key] == pytest.approx(values, abs=1e-9, nan_ok=True)
+
+
+def lesson(*rows):
+    scene = ga.Scene([ga.Polygon(ROOM, "room", orientation=0.0)])
+    drawn = [ga.Rectangle.from_box(BOX[i], 0.0) for i in rows]
+    model = ga.learn_placement([ga.Example(scene, r) for r in drawn])
+    return Lesson(model.lesson.taught, signature(room(TURNS[0]), BOX[list(rows)], 3), model.options)
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_similarities_and_habits_in_all_turns_are_those_of_every_turned_feature_vector(count):
+    learned = lesson(0, 1)
+    at = np.random.default_rng(3).uniform(0, 3, (200, 2))
+    seen = signature(room(TURNS[0]), np.hstack([at, at + 0.7]), count)
+    similar, habit = learned.turned_similarities(seen, count), learned.habits.turned(seen)
+    assert similar.max() > 0.05 and np.ptp(similar, axis=0).max() > 0.01
+    for i, turn in enumerate(TURNS):
+        there = turned(seen, turn)
+        assert similar[i] == pytest.approx(learned.similarities(learned.match(there, count)), abs=1e-6)
+        assert habit[i] == pytest.approx(learned.habits.kept_to(there)[0].mean(axis=(1, 2)), abs=1e-9)
+
+
+def test_boxes_that_share_an_extent_are_compared_once_and_all_are_answered():
+    at = np.stack(np.meshgrid(np.linspace(0, 3, 12), np.linspace(0, 2, 10)), axis=-1).reshape(-1, 2)
+    values = signature(room(TURNS[0]), np.hstack([at, at + 0.7]), 1).boxes[PARENT_BOX][:, :, 0]
+    first, group = distinct_extents(values)
+    assert len(first) == 12 and values[first][group] == pytest.approx(values, abs=1e-12)
 
 
 def test_shares_and_sizes_of_parents_follow_from_feature_vectors():
