@@ -89,11 +89,11 @@ def _signals_cancel(progress: ProgressLines) -> Iterator[None]:
             signal.signal(number, handler if handler is not None else signal.SIG_DFL)
 
 
-def _path_with_suffix(suffix: str) -> Callable[[str], Path]:
+def _path_with_suffix(*suffixes: str) -> Callable[[str], Path]:
     def convert(text: str) -> Path:
         path = Path(text)
-        if path.suffix.lower() != suffix:
-            raise argparse.ArgumentTypeError(f"{text} should end in {suffix}")
+        if path.suffix.lower() not in suffixes:
+            raise argparse.ArgumentTypeError(f"{text} should end in {' or '.join(suffixes)}")
         return path.absolute()
 
     return convert
@@ -119,6 +119,13 @@ def _last_written(path: Path) -> int | None:
     return path.stat().st_mtime_ns if path.is_file() and path.stat().st_size else None
 
 
+def _check_written(paths: Sequence[Path], before: Sequence[int | None]) -> None:
+    """Blender reports some failed writes on its console only."""
+    for path, written in zip(paths, before, strict=True):
+        if _last_written(path) in (None, written):
+            raise OSError(f"cannot write {path}: Blender left no file there.")
+
+
 def _replay(arguments: argparse.Namespace, progress: ProgressLines) -> str:
     results = [path for path in (arguments.output, arguments.render) if path is not None]
     if not results:
@@ -135,27 +142,43 @@ def _replay(arguments: argparse.Namespace, progress: ProgressLines) -> str:
         threshold=arguments.threshold,
         progress=progress,
     )
-    for path, written in zip(results, before, strict=True):
-        # Blender reports some failed writes on its console only.
-        if _last_written(path) in (None, written):
-            raise OSError(f"cannot write {path}: Blender left no file there.")
+    _check_written(results, before)
     made = f"{report.operations} operations replayed, {report.objects} objects made"
     return "\n".join([made, *(f"wrote {path}" for path in results)])
 
 
 def _apply(arguments: argparse.Namespace, progress: ProgressLines) -> str:
-    _check_writable([arguments.output])
+    results = [path for path in (arguments.output, arguments.render) if path is not None]
+    if not results:
+        raise argparse.ArgumentTypeError("apply needs --output, --render or both: it would do nothing")
+    _check_writable(results)
+    meshes_only = (
+        arguments.output if arguments.output is not None and arguments.output.suffix.lower() == ".obj" else None
+    )
+    drawn = [path for path in results if path != meshes_only]
+    if arguments.library is not None and not arguments.library.is_file():
+        raise InputError(f"{arguments.library} is not there; check the path")
     from .applying import apply_file
     from .formats import obj
     from .geometry.mesh import Mesh
+
+    if drawn:  # before the long work, in case there is no Blender
+        from .blender.buildings import write_applied
 
     applied = apply_file(
         arguments.tree, arguments.parcels, seed=arguments.seed, label=arguments.label, progress=progress
     )
     meshes = [(e.id, e.mesh) for e in applied if isinstance(e.mesh, Mesh)]
-    obj.write(meshes, arguments.output)
-    made = f"{len(applied)} elements, {len(meshes)} objects; {applied.hit_rate:.0%} of all surfaces were known"
-    return "\n".join([*applied.problems, made, f"wrote {arguments.output}"])
+    made = [f"{len(applied)} elements, {len(meshes)} objects; {applied.hit_rate:.0%} of all surfaces were known"]
+    if meshes_only is not None:
+        obj.write(meshes, meshes_only)
+    if drawn:
+        before = [_last_written(path) for path in drawn]
+        output = arguments.output if meshes_only is None else None
+        built = write_applied(applied, library=arguments.library, output=output, render=arguments.render)
+        _check_written(drawn, before)
+        made = [*built.problems, *made, f"{built.masses} merged meshes, {built.instances} instances"]
+    return "\n".join([*applied.problems, *made, *(f"wrote {path}" for path in results)])
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -193,8 +216,10 @@ def build_parser() -> argparse.ArgumentParser:
     apply.add_argument("--parcels", type=Path, required=True, metavar="FILE.geojson", help="labelled polygons")
     apply.add_argument("--label", metavar="NAME", help="property of the file that holds the labels")
     apply.add_argument("--seed", type=int, default=0, metavar="N", help="seed of all chance (0)")
-    obj = _path_with_suffix(".obj")
-    apply.add_argument("--output", type=obj, required=True, metavar="OUT.obj", help="write the meshes here")
+    either = _path_with_suffix(".blend", ".obj")
+    apply.add_argument("--output", type=either, metavar="OUT.blend", help="write the scene here, or its meshes (.obj)")
+    apply.add_argument("--render", type=_path_with_suffix(".png"), metavar="OUT.png", help="draw a picture of it here")
+    apply.add_argument("--library", type=blend, metavar="LIB.blend", help="where library objects are, by their names")
     apply.set_defaults(run=_apply)
     return parser
 

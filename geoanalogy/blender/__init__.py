@@ -5,6 +5,7 @@ Its modules are imported by `register()`, so that reading this file asks for no 
 Reading order: `names`; `planes`, `shapes` and `ground`, from objects to scenes; `footprints`; `tree_types`,
 `tree_store` and `tree_editing`, the operations tree in the .blend; `evaluating`, `lessons` and `recording`, from an
 example to its results; `instances`, which shows them; `refresh` and `corrections`, which sift them; `replay`.
+`buildings` writes what a stored tree has built, by `shading` and `outdoors`.
 """
 
 from .registration import register_in_order, unregister_in_order

@@ -1,0 +1,134 @@
+"""What an operations tree has built, as a .blend: by the batch program, and by its writer."""
+
+import bpy
+import numpy as np
+import pytest
+from flats import box, bridge, engine
+from test_batch import batch_command, run
+
+HEIGHT = 3.0
+
+
+def plots(count=3):
+    """Plots in a row and a pond, as the engine's scene."""
+    polygon = engine().Polygon
+    rings = [[(x, 0), (x + 10, 0), (x + 10, 20), (x, 20)] for x in np.arange(count) * 15.0]
+    pond = polygon([(0, 30), (4, 30), (4, 34), (0, 34)], label="pond", id="pond")
+    return engine().Scene([*(polygon(r, label="plot", id=f"plot {i}") for i, r in enumerate(rings)), pond])
+
+
+def tree():
+    """Plots are extruded; a statue stands in the pond."""
+    node, links = engine("operations.node").Node, engine("operations.node").Link
+    extrusion = engine("operations.extrusion").Extrusion(label="plot", height=HEIGHT, factor=(0.5, 1.5))
+    outline = [(-1, -0.5), (1, -0.5), (1, 0.5), (-1, 0.5)]
+    model = engine().learn_pose(plots(), engine().Pose((2, 32), 0.0), outline, engine().PoseOptions(scale="fixed"))
+    statue = engine("operations.pose_placement").PosePlacement(
+        mesh="statue", label="figure", model=model, max_per={"pond": 1}
+    )
+    return engine().OperationsTree([node("up", extrusion), node("stand", statue, (links("up"),))])
+
+
+@pytest.fixture
+def files(tmp_path):
+    """A folder with a tree, plots, and a library."""
+    tree().save(tmp_path / "tree.json")
+    engine().write_scene(plots(), tmp_path / "plots.geojson")
+    box("statue", (2.0, 1.0, 4.0))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "library.blend"), copy=True)
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    return tmp_path
+
+
+def apply(folder, *options):
+    names = ["--tree", str(folder / "tree.json"), "--parcels", str(folder / "plots.geojson"), "--seed", "7"]
+    return run(batch_command("apply", *names, *options), folder)
+
+
+def scene_of(path):
+    """What a file holds: places and data of its objects, and the vertices of its meshes."""
+    bpy.ops.wm.open_mainfile(filepath=str(path))
+    objects = {o.name: (np.round(o.matrix_world, 5).tolist(), o.data.name) for o in bpy.context.scene.objects}
+    meshes = {m.name: [tuple(v.co) for v in m.vertices] for m in bpy.data.meshes}
+    return objects, meshes
+
+
+def test_a_blend_is_written_with_masses_instances_and_a_picture(files):
+    picture, output, library = (str(files / name) for name in ("out.png", "out.blend", "library.blend"))
+    done = apply(files, "--output", output, "--render", picture, "--library", library)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "1 merged meshes, 1 instances" in done.stdout and "missing" not in done.stdout
+    assert (files / "out.png").read_bytes()[:4] == b"\x89PNG"
+    bpy.ops.wm.open_mainfile(filepath=output)
+    scene = bpy.context.scene
+    assert [c.name for c in scene.collection.children] == ["plot", "figure", "Surroundings"]
+    (mass,), (figure,) = (list(bpy.data.collections[name].objects) for name in ("plot", "figure"))
+    assert len(mass.data.vertices) == 3 * 8 and len(mass.data.polygons) == 3 * 12
+    assert {m.name for m in mass.data.materials} == {"facade", "top", "base"}
+    assert mass.data.validate() is False and len(mass.data.uv_layers) == 1
+    assert figure.data.name == "statue" and tuple(figure.location)[:2] == pytest.approx((2, 32), abs=1e-4)
+    assert scene.camera.name == "From the front"
+    again = files / "again.blend"
+    assert apply(files, "--output", str(again), "--library", library).returncode == 0
+    assert scene_of(again) == scene_of(output)
+
+
+def test_a_box_takes_the_place_of_what_the_library_does_not_have(files):
+    bpy.ops.wm.save_as_mainfile(filepath=str(files / "bare.blend"), copy=True)
+    done = apply(files, "--output", str(files / "out.blend"), "--library", str(files / "bare.blend"))
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "node 'stand': the library object 'statue' is missing" in done.stdout
+    bpy.ops.wm.open_mainfile(filepath=str(files / "out.blend"))
+    (figure,) = bpy.data.collections["figure"].objects
+    assert tuple(figure.dimensions) == pytest.approx((2, 1, 1)) and len(bpy.data.collections["plot"].objects) == 1
+
+
+@pytest.mark.parametrize(
+    ("options", "code", "message"),
+    [
+        ([], 2, "apply needs --output, --render or both"),
+        (["--output", "out.stl"], 2, "out.stl should end in .blend or .obj"),
+        (["--output", "nowhere/out.blend"], 5, "its folder does not exist"),
+        (["--output", "out.blend", "--library", "no.blend"], 3, "no.blend is not there; check the path"),
+        (["--output", "out.blend", "--library", "garbage.blend"], 3, "garbage.blend cannot be opened"),
+    ],
+)
+def test_what_cannot_be_done_is_said(files, options, code, message):
+    (files / "garbage.blend").write_bytes(b"garbage" * 100)
+    done = apply(files, *options)
+    assert done.returncode == code, done.stdout + done.stderr
+    assert message in done.stderr
+    assert not (files / "out.blend").exists()
+
+
+def test_the_cameras_see_everything(files):
+    buildings = bridge("buildings")
+    applied = tree().apply(plots(), seed=7)
+    buildings.build(bpy.context.scene, applied, None)
+    scene = bpy.context.scene
+    bpy.context.view_layer.update()
+    from bpy_extras.object_utils import world_to_camera_view
+
+    cameras = [o for o in scene.objects if o.type == "CAMERA"]
+    assert len(cameras) == 2
+    for camera in cameras:
+        for name in ("plot", "Parcels"):
+            seen = [world_to_camera_view(scene, camera, v.co) for v in scene.objects[name].data.vertices]
+            assert all(
+                0 < p.x < 1 and 0 < p.y < 1 and camera.data.clip_start < p.z < camera.data.clip_end for p in seen
+            )
+
+
+def test_an_empty_plan_is_refused():
+    applied = tree().apply(engine().Scene([]), seed=7)
+    with pytest.raises(engine("errors").InputError, match="nothing was built and there are no parcels"):
+        bridge("buildings").build(bpy.context.scene, applied, None)
+
+
+@pytest.mark.parametrize(
+    ("name", "like"), [("entrance door", "door"), ("lower window sill", "sill"), ("Street Wall", "wall")]
+)
+def test_the_last_word_that_is_known_gives_the_colour(name, like):
+    shading = bridge("shading")
+    assert shading.finish_of(name) == shading.FINISHES[like]
+    assert shading.finish_of("quince") == shading.finish_of("quince") != shading.finish_of("medlar")
