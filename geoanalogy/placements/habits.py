@@ -7,8 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .signature import PARENT_BOX, Signature
-from .similarity import distinct_extents
-from .turns import TURNS, both_ways
+from .turns import TURNS, flipped
 
 Array = NDArray[np.float64]
 
@@ -112,19 +111,25 @@ class Habits:
         for key, habit in self.of.items():
             if key not in seen.boxes:
                 continue
-            along = {}
-            for way, values in both_ways(seen.boxes[key][:, :1]).items():
-                first, group = distinct_extents(values)
-                edges = values[first, 0][:, [0, 2]]
-                for axis in (0, 1):
-                    off = edges - habit.middle[axis]
-                    off[..., 3] *= edges[..., 0] - edges[..., 1]
-                    value = np.exp(-0.5 * (off / (habit.scatter[axis] + self.widths[axis])) ** 2)
-                    weighted = np.where(np.isnan(value), 0.0, value) * habit.weight[axis]
-                    along[way, axis] = weighted.sum(axis=(1, 2))[group]
+            along: list[list[list[Array]]] = []  # by axis of the boxes, whether mirrored, axis of the examples
+            for source in (0, 1):
+                first, kind = seen.distinct(key, source)
+                values = seen.boxes[key][first, :1, source]
+                along.append(
+                    [[self._along(habit, v[:, 0], axis)[kind] for axis in (0, 1)] for v in (values, flipped(values))]
+                )
             for i, (mirrored_x, mirrored_y, swapped) in enumerate(TURNS):
-                kept[i] += along[(0, mirrored_x), int(swapped)] + along[(1, mirrored_y), 1 - int(swapped)]
+                kept[i] += along[0][mirrored_x][int(swapped)] + along[1][mirrored_y][1 - int(swapped)]
         return kept / 4
+
+    def _along(self, habit: Habit, values: Array, axis: int) -> Array:
+        """How well coordinates (n, 3, 4) along an axis keep to a habit: the sum of both edges, shape (n,)."""
+        edges = values[:, [0, 2]]
+        off = edges - habit.middle[axis]
+        off[..., 3] *= edges[..., 0] - edges[..., 1]
+        agreement = np.exp(-0.5 * (off / (habit.scatter[axis] + self.widths[axis])) ** 2)
+        agreement[np.isnan(agreement)] = 0.0
+        return np.asarray((agreement * habit.weight[axis]).sum(axis=(1, 2)))
 
     @cached_property
     def exact(self) -> dict[str, NDArray[np.bool_]]:

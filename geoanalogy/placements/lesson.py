@@ -11,9 +11,9 @@ from .boxes import BETWEEN
 from .habits import Habits
 from .options import PlacementOptions
 from .signature import BOX, PARENT_BOX, SAMPLE_COUNTS, Signature
-from .similarity import best_assignment, box_agreement, length_widths, outline_agreement, weighted_agreement
+from .similarity import axis_agreement, best_assignment, box_agreement, length_widths, outline_agreement
 from .taught import Taught
-from .turns import TURNS, both_ways, in_units, parent_sizes, turned_outlines
+from .turns import TURNS, flipped, in_units, parent_sizes, turned_outlines
 
 Array = NDArray[np.float64]
 
@@ -215,7 +215,10 @@ class Lesson:
                 continue
             weight = self._weights32[key][:, :neighbours]
             if key in self.kept.boxes:
-                along = [self.along(key, there[:, :, axis], axis, neighbours) for axis in (0, 1)]
+                along = []
+                for axis in (0, 1):
+                    first, kind = seen.distinct(key, axis)
+                    along.append(self._along(key, there[first, :, axis], axis, neighbours)[kind])
                 whole = np.maximum(weight.sum(axis=(3, 4)).transpose(2, 0, 1), 1e-9)  # axis, example, element
                 x, y = (along[axis][..., 0] / whole[axis, :, 0][:, None] for axis in (0, 1))
                 found[key] = Match(
@@ -233,26 +236,11 @@ class Lesson:
                 found[key] = Match(total, share, share, share, False)
         return found
 
-    def along(self, key: str, values: Array, axis: int, neighbours: int | None = None) -> NDArray[Any]:
-        """Weighted agreement of boxes with every example along one axis, in one group of boxes.
-
-        Parameters
-        ----------
-        key : str
-            Of the group.
-        values : ndarray of shape (n, p, 3, 4)
-            Box coordinates of the boxes.
-        axis : int
-            Of the examples.
-        neighbours : int, optional
-            See `match`.
-
-        Returns
-        -------
-        ndarray of shape (n, m, p, q), float32
-        """
+    def _along(self, key: str, values: Array, axis: int, neighbours: int | None) -> NDArray[Any]:
+        """Weighted agreement (n, m, p, q) of coordinates (n, p, 3, 4) with those of all examples along one axis."""
         kept, weights = self.kept.boxes[key][:, :neighbours, axis], self._weights32[key][:, :neighbours, axis]
-        return weighted_agreement(values, kept, weights, self.widths[axis], self.options.tau)
+        agreement = axis_agreement(values, kept, self.widths[axis], self.options.tau)
+        return np.asarray(np.einsum("nmpqsr,mqsr->nmpq", agreement, weights))
 
     @cached_property
     def _weights32(self) -> dict[str, NDArray[Any]]:
@@ -280,10 +268,15 @@ class Lesson:
         for key in self.kept.boxes:
             if key not in seen.boxes:
                 continue
-            ways = both_ways(seen.boxes[key])
-            along = {(way, axis): self.along(key, ways[way], axis, neighbours) for way in ways for axis in (0, 1)}
+            along: list[list[list[NDArray[Any]]]] = []  # by axis of the boxes, whether mirrored, axis of the examples
+            for source in (0, 1):
+                first, kind = seen.distinct(key, source)
+                ways = seen.boxes[key][first, :, source]
+                along.append(
+                    [[self._along(key, v, axis, neighbours)[kind] for axis in (0, 1)] for v in (ways, flipped(ways))]
+                )
             for i, (mirrored_x, mirrored_y, swapped) in enumerate(TURNS):
-                x, y = along[(0, mirrored_x), int(swapped)], along[(1, mirrored_y), 1 - int(swapped)]
+                x, y = along[0][mirrored_x][int(swapped)], along[1][mirrored_y][1 - int(swapped)]
                 total[i] += best_assignment(x + y)[0]
         if seen.outlines:
             for i, turn in enumerate(TURNS):

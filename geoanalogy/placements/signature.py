@@ -10,6 +10,7 @@ count 2, 1 and 2.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,6 +77,50 @@ class Signature:
             {key: value[at] for key, value in self.boxes.items()},
             {key: value[at] for key, value in self.outlines.items()},
         )
+
+    def distinct(self, key: str, axis: int) -> tuple[NDArray[np.intp] | slice, NDArray[np.intp] | slice]:
+        """Which boxes differ in their coordinates along an axis, relative to the elements of one group.
+
+        Candidates are crossings of extents, and most share theirs along an axis with others: there is a tenth as many
+        extents as boxes.
+
+        Parameters
+        ----------
+        key : str
+            Of a group of boxes.
+        axis : int
+
+        Returns
+        -------
+        first : ndarray of int, or slice
+            One box of each kind; all where telling them apart is as much work as they are.
+        kind : ndarray of shape (n,) of int, or slice
+            Of every box.
+        """
+        if (key, axis) not in self._distinct:
+            self._distinct[key, axis] = _kinds(self.boxes[key][:, :, axis])
+        return self._distinct[key, axis]
+
+    @cached_property
+    def _distinct(self) -> dict[tuple[str, int], tuple[NDArray[np.intp] | slice, NDArray[np.intp] | slice]]:
+        return {}
+
+
+#: Boxes below which all are compared.
+FEW_BOXES = 64
+
+
+def _kinds(values: Array) -> tuple[NDArray[np.intp] | slice, NDArray[np.intp] | slice]:
+    """The first of the equal rows of coordinates (n, k, 3, 4), and which of these each row equals."""
+    if values.shape[1] > 1 or len(values) < FEW_BOXES:
+        return slice(None), slice(None)
+    kind = np.zeros(len(values), dtype=np.intp)
+    # From the element's minimum, and its extent: the other coordinates follow.
+    for column in (values[:, 0, 0, 0], values[:, 0, 2, 0], values[:, 0, 0, 1]):
+        known, number = np.unique(column, return_inverse=True)
+        kind = kind * len(known) + number.ravel()
+    _, first, kind = np.unique(kind, return_index=True, return_inverse=True)
+    return first, kind.ravel()
 
 
 def box_coordinates(boxes: Array, elements: Array) -> Array:

@@ -81,58 +81,6 @@ def axis_agreement(a: Array, b: Array, width: float, tau: float) -> NDArray[Any]
     return _gaussian(x[:, None, :, None] - y[None, :, None])
 
 
-def weighted_agreement(a: Array, b: Array, weights: NDArray[Any], width: float, tau: float) -> NDArray[Any]:
-    """Agreement along one axis, summed over positions and coordinates by weights.
-
-    Candidates are crossings of extents, and many share one along the axis: each is compared once.
-
-    Parameters
-    ----------
-    a : ndarray of shape (n, p, 3, 4)
-    b : ndarray of shape (m, q, 3, 4)
-    weights : ndarray of shape (m, q, 3, 4), float32
-    width : float
-    tau : float
-        See `axis_agreement`.
-
-    Returns
-    -------
-    ndarray of shape (n, m, p, q), float32
-    """
-    first, group = distinct_extents(a)
-    agreement = axis_agreement(a[first], b, width, tau)
-    return np.einsum("nmpqsr,mqsr->nmpq", agreement, weights)[group]
-
-
-def distinct_extents(values: Array) -> tuple[NDArray[np.intp] | slice, NDArray[np.intp] | slice]:
-    """Which of many boxes differ in their coordinates along one axis, relative to their nearest element.
-
-    Parameters
-    ----------
-    values : ndarray of shape (n, p, 3, 4)
-
-    Returns
-    -------
-    first : ndarray of int, or slice
-        One of the boxes of each kind; all where finding them is no less work than they are.
-    group : ndarray of shape (n,) of int, or slice
-        Its kind, by box.
-    """
-    if values.shape[1] > 1 or len(values) < FEW_BOXES:
-        return slice(None), slice(None)
-    group = np.zeros(len(values), dtype=np.intp)
-    # From the element's minimum, and its extent: the other coordinates follow.
-    for column in (values[:, 0, 0, 0], values[:, 0, 2, 0], values[:, 0, 0, 1]):
-        known, number = np.unique(column, return_inverse=True)
-        group = group * len(known) + number.ravel()
-    _, first, group = np.unique(group, return_index=True, return_inverse=True)
-    return first, group.ravel()
-
-
-#: Boxes below which all are compared.
-FEW_BOXES = 64
-
-
 def outline_agreement(key: str, a: Array, b: Array, widths: Array, tau: float) -> NDArray[Any]:
     """Gaussians of the differences in the relations of outlines between every two elements.
 
@@ -151,12 +99,13 @@ def outline_agreement(key: str, a: Array, b: Array, widths: Array, tau: float) -
     """
     kinds, periods = outline_kinds(key)
     scale = np.array([widths[2] if kind is Kind.LENGTH else tau * SIGMA[kind] for kind in kinds])
-    x, y = _apart(a, b)
-    difference = np.abs(x[:, None, :, None] - y[None, :, None])
+    x, y = _apart((a / scale).astype(np.float32), (b / scale).astype(np.float32))
+    difference = x[:, None, :, None] - y[None, :, None]
     for i, period in enumerate(periods):
         if np.isfinite(period):
-            difference[..., i] = np.minimum(difference[..., i], np.abs(period - difference[..., i]))
-    return _gaussian((difference / scale).astype(np.float32))
+            off = np.abs(difference[..., i])
+            difference[..., i] = np.minimum(off, np.abs(np.float32(period / scale[i]) - off))
+    return _gaussian(difference)
 
 
 #: A value in place of a nil element's: far from any other in units of the Gaussians, its square a finite float32.

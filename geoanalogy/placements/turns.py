@@ -57,22 +57,6 @@ def turned_boxes(values: Array, turn: tuple[int, int, bool]) -> Array:
     return np.stack(parts[::-1] if turn[2] else parts, axis=-3)
 
 
-def both_ways(values: Array) -> dict[tuple[int, int], Array]:
-    """Box coordinates along each axis, as they are and mirrored: every turn consists of two of these.
-
-    Parameters
-    ----------
-    values : ndarray of shape (n, k, 2, 3, 4)
-        By axis, position and coordinate.
-
-    Returns
-    -------
-    dict of (axis, mirrored) to ndarray of shape (n, k, 3, 4)
-    """
-    along = {(axis, 0): values[:, :, axis] for axis in (0, 1)}
-    return along | {(axis, 1): flipped(value) for (axis, _), value in along.items()}
-
-
 def turned_outlines(outlines: dict[str, Array], turn: tuple[int, int, bool]) -> dict[str, Array]:
     """Relations of outlines that boxes would have in a mirrored or turned copy of their surroundings.
 

@@ -9,7 +9,6 @@ from geoanalogy.placements.arrangement import arrangement_of
 from geoanalogy.placements.lesson import Lesson
 from geoanalogy.placements.one_each import middles
 from geoanalogy.placements.signature import PARENT_BOX, Signature, signature
-from geoanalogy.placements.similarity import distinct_extents
 from geoanalogy.placements.turns import (
     TURNS,
     in_units,
@@ -87,9 +86,11 @@ def test_similarities_and_habits_in_all_turns_are_those_of_every_turned_feature_
 
 def test_boxes_that_share_an_extent_are_compared_once_and_all_are_answered():
     at = np.stack(np.meshgrid(np.linspace(0, 3, 12), np.linspace(0, 2, 10)), axis=-1).reshape(-1, 2)
-    values = signature(room(TURNS[0]), np.hstack([at, at + 0.7]), 1).boxes[PARENT_BOX][:, :, 0]
-    first, group = distinct_extents(values)
-    assert len(first) == 12 and values[first][group] == pytest.approx(values, abs=1e-12)
+    seen = signature(room(TURNS[0]), np.hstack([at, at + 0.7]), 1)
+    for axis, count in ((0, 12), (1, 10)):
+        values = seen.boxes[PARENT_BOX][:, :, axis]
+        first, kind = seen.distinct(PARENT_BOX, axis)
+        assert len(first) == count and values[first][kind] == pytest.approx(values, abs=1e-12)
 
 
 def test_shares_and_sizes_of_parents_follow_from_feature_vectors():
