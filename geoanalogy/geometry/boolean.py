@@ -2,9 +2,8 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
-import manifold3d
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +11,10 @@ from ..errors import InputError
 from ..tolerances import COORDINATE_GRID, PARALLEL_AXES
 from .frame import SPACE, Frame
 from .solid import Solid
+
+if TYPE_CHECKING:
+    # Scenes without solids need no library for them.
+    import manifold3d
 
 Array = NDArray[np.float64]
 Kind = Literal["merge", "subtract"]
@@ -61,6 +64,8 @@ def combined(first: Solid, others: Sequence[tuple[Solid, Frame]], kind: Kind, pl
             index.append(same)
         there = plane.to_plane(frame.to_space(solid.vertices))
         manifolds.append(_built(there, solid.triangles, np.array(index)[solid.face]))
+    import manifold3d
+
     operation = manifold3d.OpType.Add if kind == "merge" else manifold3d.OpType.Subtract
     result = manifold3d.Manifold.batch_boolean(manifolds, operation)
     mesh = result.to_mesh64()
@@ -93,14 +98,16 @@ def is_square(plane: Frame) -> bool:
     return bool((np.abs(plane.axes - np.round(plane.axes)) < PARALLEL_AXES).all())
 
 
-def _manifold(solid: Solid) -> manifold3d.Manifold:
+def _manifold(solid: Solid) -> "manifold3d.Manifold":
     """The solid as the library has it, kept with it: building it anew takes longer than a boolean."""
     if "manifold" not in solid.derived:
         solid.derived["manifold"] = _built(solid.vertices, solid.triangles, solid.face)
     return solid.derived["manifold"]
 
 
-def _built(vertices: Array, triangles: NDArray[np.intp], face: NDArray[np.intp]) -> manifold3d.Manifold:
+def _built(vertices: Array, triangles: NDArray[np.intp], face: NDArray[np.intp]) -> "manifold3d.Manifold":
+    import manifold3d
+
     rounded = np.ascontiguousarray(np.round(vertices / COORDINATE_GRID) * COORDINATE_GRID)
     mesh = manifold3d.Mesh64(
         rounded, np.ascontiguousarray(triangles, dtype=np.uint64), face_id=np.ascontiguousarray(face, dtype=np.uint64)

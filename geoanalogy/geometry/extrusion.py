@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import manifold3d
 import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
@@ -212,5 +211,7 @@ def triangulated(rings: Sequence[Array]) -> Triangles:
     ndarray of shape (k, 3), int
         Counter-clockwise, by the numbers of the rings' vertices in a row; every vertex is used.
     """
+    import manifold3d
+
     found = manifold3d.triangulate([np.ascontiguousarray(ring) for ring in rings])
     return np.asarray(found, dtype=np.intp)

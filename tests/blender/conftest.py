@@ -4,7 +4,7 @@ Runs with the bpy module, and inside Blender itself through run_in_blender.py. T
 installed extension only: its top-level twin would be a second copy, with classes of its own.
 """
 
-import importlib
+import importlib.util
 import os
 import platform
 import shutil
@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "scripts"))
 ADDON = "bl_ext.user_default.geoanalogy"
 
 INSIDE_BLENDER = "bpy" in sys.modules
@@ -28,6 +29,7 @@ else:
 
 import bpy  # noqa: E402  # isort: skip
 import addon_utils  # noqa: E402  # bpy puts it on the path
+import wheel_grid  # noqa: E402
 
 # Without the checkout on the path, nobody imports the top-level engine by mistake.
 sys.path[:] = [entry for entry in sys.path if Path(entry).resolve() != ROOT]
@@ -82,8 +84,12 @@ def engine_twins() -> list[str]:
 
 @pytest.fixture(scope="session")
 def extension_zip(tmp_path_factory):
-    """The zip without wheels: this Python has the libraries already."""
-    return build_extension(tmp_path_factory.mktemp("extension"), "--without-wheels")
+    """The zip without wheels where this Python has the libraries already, with its own wheels where not."""
+    carried = ["--without-wheels"]
+    if any(importlib.util.find_spec(package) is None for package in wheel_grid.VERSIONS):
+        here = ".".join(map(str, sys.version_info[:2]))
+        carried = ["--platform", wheel_grid.PLATFORM_HERE, "--python", here]
+    return build_extension(tmp_path_factory.mktemp("extension"), *carried)
 
 
 @pytest.fixture(scope="session")

@@ -13,10 +13,8 @@ from pathlib import Path
 import addon_utils
 import bpy
 import pytest
-from conftest import ADDON, INSIDE_BLENDER, ROOT, build_extension, engine_twins, policy_warnings
-
-sys.path.append(str(ROOT / "scripts"))
 import wheel_grid
+from conftest import ADDON, INSIDE_BLENDER, ROOT, build_extension, engine_twins, policy_warnings
 
 ALLOWED = re.compile(
     r"__init__\.py|blender_manifest\.toml|LICENSE|README\.md"
