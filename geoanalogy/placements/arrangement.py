@@ -132,11 +132,20 @@ class Arrangement:
         if self.parent_fills_box:
             inside = shared_areas(boxes, self.parent_box[None])[:, 0]
         else:
-            shape = shapely.Polygon(
-                self.turned(self.parent.points), [self.turned(np.asarray(h)) for h in self.parent.holes]
-            )
-            inside = shapely.area(shapely.intersection(shapely.box(*boxes.T), shape))
+            # Most boxes lie inside as a whole, which a prepared outline tells at once.
+            drawn = shapely.box(*boxes.T)
+            inside = size.copy()
+            partly = ~shapely.covers(self._outline, drawn)
+            inside[partly] = shapely.area(shapely.intersection(drawn[partly], self._outline))
         return np.clip(1.0 - inside / size, 0.0, 1.0)
+
+    @cached_property
+    def _outline(self) -> shapely.Polygon:
+        """The parent in the frame, prepared for many questions."""
+        holes = [self.turned(np.asarray(h)) for h in self.parent.holes]
+        shape = shapely.Polygon(self.turned(self.parent.points), holes)
+        shapely.prepare(shape)
+        return shape
 
     @cached_property
     def fingerprint(self) -> str:

@@ -42,10 +42,19 @@ def _paired(between: Callable[[Array, Array], Array], a: Array, b: Array) -> Arr
     -------
     ndarray of shape (n, m)
     """
-    x, y = np.ascontiguousarray(a.T), np.ascontiguousarray(b.T)
-    if len(b) < len(a):
-        return between(x[:, None, :], y[:, :, None]).T
-    return between(x[:, :, None], y[:, None, :])
+    swapped = len(b) < len(a)
+    outer, inner = (np.ascontiguousarray(boxes.T) for boxes in ((b, a) if swapped else (a, b)))
+    found = np.empty((outer.shape[1], inner.shape[1]), dtype=np.result_type(a, b))
+    step = max(1, AT_ONCE // max(inner.shape[1], 1))
+    for start in range(0, len(found), step):
+        some = outer[:, start : start + step, None]
+        pair = (inner[:, None, :], some) if swapped else (some, inner[:, None, :])
+        found[start : start + step] = between(*pair)
+    return found.T if swapped else found
+
+
+#: Pairs of boxes that are compared at once: what is kept between two steps of arithmetic stays in the cache.
+AT_ONCE = 16384
 
 
 def shared_areas(a: Array, b: Array) -> Array:
@@ -87,7 +96,17 @@ def overlap(a: Array, b: Array) -> Array:
     -------
     ndarray
     """
-    return shared_areas(a, b) / np.minimum(areas(a)[:, None], areas(b)[None])
+    return _paired(_overlap, a, b)
+
+
+def _overlap(a: Array, b: Array) -> Array:
+    shared = _shared(a, b)
+    shared /= np.minimum(_area(a), _area(b))
+    return shared
+
+
+def _area(edges: Array) -> Array:
+    return np.asarray(np.multiply(edges[2] - edges[0], edges[3] - edges[1]))
 
 
 def union_overlap(a: Array, b: Array) -> Array:
@@ -102,8 +121,15 @@ def union_overlap(a: Array, b: Array) -> Array:
     -------
     ndarray
     """
-    shared = shared_areas(a, b)
-    return shared / (areas(a)[:, None] + areas(b)[None] - shared)
+    return _paired(_union_overlap, a, b)
+
+
+def _union_overlap(a: Array, b: Array) -> Array:
+    shared = _shared(a, b)
+    union = _area(a) + _area(b)
+    union -= shared
+    shared /= union
+    return shared
 
 
 def interval_overlap(a: Array, b: Array, axis: int) -> Array:

@@ -1,5 +1,7 @@
 """Filters on ranked candidates (section 5.5)."""
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -27,19 +29,21 @@ def thin(boxes: Array, strength: Array, limit: float, most: int) -> NDArray[np.i
     """
     order = np.argsort(-strength, kind="stable")[: MOST_COMPARED * most]
     ranked = boxes[order].astype(np.float32)
+    return order[_strongest(ranked, lambda a, b: union_overlap(a, b) >= limit)[:most]]
+
+
+def _strongest(ranked: Array, repeats: Callable[[Array, Array], NDArray[np.bool_]]) -> list[int]:
+    """Of boxes, strongest first, those that do not repeat a stronger one that is kept."""
     kept: list[int] = []
-    free = np.ones(len(order), dtype=bool)
-    for start in range(0, len(order), AT_ONCE):
+    free = np.ones(len(ranked), dtype=bool)
+    for start in range(0, len(ranked), AT_ONCE):
         # What repeats a stronger box of those before need not be compared with the weaker ones.
         some = start + np.flatnonzero(free[start : start + AT_ONCE])
-        same = union_overlap(ranked[some], ranked[start:]) >= limit
-        for i, repeats in zip(some, same, strict=True):
+        for i, same in zip(some.tolist(), repeats(ranked[some], ranked[start:]), strict=True):
             if free[i]:
-                kept.append(int(i))
-                if len(kept) == most:
-                    return order[kept]
-                free[start:] &= ~repeats
-    return order[kept]
+                kept.append(i)
+                free[start:] &= ~same
+    return kept
 
 
 #: Boxes that are compared with each other for every one that is kept.
@@ -67,14 +71,7 @@ def without_overlaps(boxes: Array, score: Array, taken: Array, allowed: float) -
     free = (overlap(boxes, taken) <= allowed).all(axis=1) if len(taken) else np.ones(len(boxes), dtype=bool)
     order = np.argsort(-score, kind="stable")
     order = order[free[order]]
-    apart = overlap(boxes[order], boxes[order]) <= allowed
-    kept = []
-    free = np.ones(len(order), dtype=bool)
-    for i in range(len(order)):
-        if free[i]:
-            kept.append(i)
-            free &= apart[i]
-    return order[kept]
+    return order[_strongest(boxes[order], lambda a, b: ~(overlap(a, b) <= allowed))]
 
 
 def shape_factor(sizes: Array, taught: Array, aspect_tolerance: float, area_tolerance: float) -> Array:
