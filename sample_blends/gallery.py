@@ -11,9 +11,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import geoanalogy as ga
+
+from .houses.plots import TYPES
+
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
 SCENES = ("apartment", "garden", "crowns", "street")
+HOUSES = "houses"
 
 
 def rebuild(scene: str) -> None:
@@ -31,10 +36,22 @@ def replay(scene: str, folder: Path) -> None:
     subprocess.run([*command, *outputs], check=True)
 
 
+def build_houses(folder: Path) -> None:
+    """Apply the trees of all types of houses, grown together, to the other plots; write the scene and its picture."""
+    grown = ga.OperationsTree()
+    for label in TYPES:
+        grown = grown.with_tree(ga.OperationsTree.load(HERE / HOUSES / f"{label}.json"), (), f"{label} ")
+    tree = folder / f"{HOUSES}.json"
+    grown.save(tree)
+    command = [sys.executable, str(ROOT / "batch.py"), "apply", "--tree", str(tree), "--seed", "7"]
+    outputs = ["--output", str(folder / f"{HOUSES}.blend"), "--render", str(folder / f"{HOUSES}.png")]
+    subprocess.run([*command, "--parcels", str(HERE / HOUSES / "plots.geojson"), *outputs], check=True)
+
+
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("scenes", nargs="*", default=SCENES, help="which ones (default: all)")
+    parser.add_argument("scenes", nargs="*", default=(*SCENES, HOUSES), help="which ones (default: all)")
     parser.add_argument(
         "--output", type=Path, default=ROOT / "output", help="folder for the replayed scenes and pictures"
     )
@@ -42,6 +59,11 @@ def main() -> None:
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     for scene in arguments.scenes:
+        if scene == HOUSES:
+            if arguments.rebuild:
+                subprocess.run([sys.executable, "-m", "sample_blends.houses"], cwd=ROOT, check=True)
+            build_houses(arguments.output)
+            continue
         if arguments.rebuild:
             rebuild(scene)
         replay(scene, arguments.output)

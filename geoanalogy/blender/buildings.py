@@ -169,6 +169,7 @@ def mesh_data(name: str, mesh: Mesh) -> bpy.types.Mesh:
     for finish in mesh.materials:
         made.materials.append(material(finish))
     made.update(calc_edges=True)
+    made.shade_flat()
     return made
 
 

@@ -15,16 +15,16 @@ Array = NDArray[np.float64]
 SUN = np.array([-0.45, -0.65, 0.75])
 
 #: W/m² of the sun, its angular size in radians, and the strength and colour of the sky.
-SUNSHINE, SOFTNESS, SKY, SKY_COLOUR = 3.4, math.radians(2.0), 0.7, (0.62, 0.76, 1.0, 1.0)
+SUNSHINE, SOFTNESS, SKY, SKY_COLOUR = 2.8, math.radians(2.0), 0.5, (0.62, 0.76, 1.0, 1.0)
 
 #: Where the cameras stand: their names, and their directions in plan in radians from the x axis.
-VIEWS = {"From the front": math.radians(-70.0), "From behind": math.radians(115.0)}
+VIEWS = {"From the front": math.radians(-78.0), "From behind": math.radians(102.0)}
 
 #: How high the cameras look from, radians above the horizon, and their lens in millimetres.
-RISE, LENS = math.radians(32.0), 60.0
+RISE, LENS = math.radians(30.0), 60.0
 
 #: Width of the picture in pixels, and its least and greatest height in proportion.
-WIDTH, LOWEST, TALLEST = 1600, 0.35, 0.75
+WIDTH, LOWEST, TALLEST = 1600, 0.25, 0.75
 
 #: Part of the picture that is left free round everything.
 MARGIN = 0.03
@@ -69,6 +69,7 @@ def furnish(scene: bpy.types.Scene, holder: bpy.types.Collection, points: Array,
     background.inputs["Color"].default_value = SKY_COLOUR
     background.inputs["Strength"].default_value = SKY
 
+    scene.view_settings.look = "AgX - Medium High Contrast"
     scene.render.resolution_x, scene.render.resolution_y = WIDTH, round(WIDTH * _proportion(points))
     cameras = [_camera(name, turn, points, _proportion(points)) for name, turn in VIEWS.items()]
     for camera in cameras:

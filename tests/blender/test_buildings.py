@@ -65,6 +65,7 @@ def test_a_blend_is_written_with_masses_instances_and_a_picture(files):
     (mass,), (figure,) = (list(bpy.data.collections[name].objects) for name in ("plot", "figure"))
     assert len(mass.data.vertices) == 3 * 8 and len(mass.data.polygons) == 3 * 12
     assert {m.name for m in mass.data.materials} == {"facade", "top", "base"}
+    assert not any(p.use_smooth for p in mass.data.polygons)
     assert mass.data.validate() is False and len(mass.data.uv_layers) == 1
     assert figure.data.name == "statue" and tuple(figure.location)[:2] == pytest.approx((2, 32), abs=1e-4)
     assert scene.camera.name == "From the front"
