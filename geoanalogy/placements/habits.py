@@ -86,12 +86,12 @@ class Habits:
             exact |= tight.any(axis=2)
             if key not in seen.boxes:
                 continue
-            edges = seen.boxes[key][:, 0][:, :, [0, 2]]
-            off = edges - habit.middle
-            off[..., 3] *= edges[..., 0] - edges[..., 1]
-            agreement = np.nan_to_num(np.exp(-0.5 * (off / (habit.scatter + self.widths)) ** 2))
-            kept += (habit.weight * agreement).sum(axis=3)
-            explained = np.maximum(explained, (tight * agreement).max(axis=3))
+            for axis in (0, 1):
+                first, kind = seen.distinct(key, axis)
+                agreement = self._agreement(habit, seen.boxes[key][first, 0, axis], axis)
+                kept[:, axis] += (habit.weight[axis] * agreement).sum(axis=2)[kind]
+                best = (tight[axis] * agreement).max(axis=2)[kind]
+                explained[:, axis] = np.maximum(explained[:, axis], best)
         return kept, np.where(exact, explained, 1.0)
 
     def turned(self, seen: Signature) -> Array:
@@ -124,12 +124,16 @@ class Habits:
 
     def _along(self, habit: Habit, values: Array, axis: int) -> Array:
         """How well coordinates (n, 3, 4) along an axis keep to a habit: the sum of both edges, shape (n,)."""
+        return np.asarray((self._agreement(habit, values, axis) * habit.weight[axis]).sum(axis=(1, 2)))
+
+    def _agreement(self, habit: Habit, values: Array, axis: int) -> Array:
+        """Agreement of both edges in every coordinate (n, 3, 4) along an axis with a habit; shape (n, 2, 4)."""
         edges = values[:, [0, 2]]
         off = edges - habit.middle[axis]
         off[..., 3] *= edges[..., 0] - edges[..., 1]
         agreement = np.exp(-0.5 * (off / (habit.scatter[axis] + self.widths[axis])) ** 2)
         agreement[np.isnan(agreement)] = 0.0
-        return np.asarray((agreement * habit.weight[axis]).sum(axis=(1, 2)))
+        return np.asarray(agreement)
 
     @cached_property
     def exact(self) -> dict[str, NDArray[np.bool_]]:
