@@ -1,8 +1,11 @@
 """What an operations tree has built, as a .blend: by the batch program, and by its writer."""
 
+import sys
+
 import bpy
 import numpy as np
 import pytest
+from conftest import ROOT
 from flats import box, bridge, engine
 from test_batch import batch_command, run
 
@@ -100,6 +103,17 @@ def test_what_cannot_be_done_is_said(files, options, code, message):
     assert done.returncode == code, done.stdout + done.stderr
     assert message in done.stderr
     assert not (files / "out.blend").exists()
+
+
+def test_without_blender_one_sentence_says_what_to_do(files):
+    (files / "bpy.py").write_text("raise ModuleNotFoundError(\"No module named 'bpy'\", name='bpy')")
+    script = f"import sys; sys.path[:0] = [{str(files)!r}, {str(ROOT)!r}]; from geoanalogy.command_line import main; "
+    names = ["--tree", str(files / "tree.json"), "--parcels", str(files / "plots.geojson")]
+    code = script + f"sys.exit(main({['apply', *names, '--output', str(files / 'out.blend')]!r}))"
+    done = run([sys.executable, "-c", code], files)
+    assert done.returncode == 3 and done.stderr.startswith("geoanalogy: the module bpy is missing: install"), (
+        done.stderr
+    )
 
 
 def test_the_cameras_see_everything(files):
