@@ -1,6 +1,7 @@
 """Filters on ranked candidates (section 5.5)."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 from .boxes import overlap, union_overlap
 
 Array = NDArray[np.float64]
+Boxes = NDArray[Any]
 
 
 def thin(boxes: Array, strength: Array, limit: float, most: int) -> NDArray[np.intp]:
@@ -32,7 +34,7 @@ def thin(boxes: Array, strength: Array, limit: float, most: int) -> NDArray[np.i
     return order[_strongest(ranked, lambda a, b: union_overlap(a, b) >= limit)[:most]]
 
 
-def _strongest(ranked: Array, repeats: Callable[[Array, Array], NDArray[np.bool_]]) -> list[int]:
+def _strongest(ranked: Boxes, repeats: Callable[[Boxes, Boxes], NDArray[np.bool_]]) -> list[int]:
     """Of boxes, strongest first, those that do not repeat a stronger one that is kept."""
     kept: list[int] = []
     free = np.ones(len(ranked), dtype=bool)
