@@ -70,6 +70,8 @@ class Batch:
         #: What counts as one step, per importance: the half-widths of level sets, twice, and of directions.
         self.unit = np.column_stack([width, width, np.full(len(width), self.query.options.direction_width)])
         targets = list(dict.fromkeys(i.target for i in importances))
+        #: The number of each importance's arrangement.
+        self.arrangement = np.array([targets.index(i.target) for i in importances])
         elements = Elements.joined([t.elements for t in targets])
         self._parts = {}
         for element in ElementType:
@@ -77,7 +79,7 @@ class Batch:
             if asked:
                 chosen = [(k, a.strongest(share) if share else a) for k, a in asked]
                 first = np.cumsum([0, *(t.elements.count(element) for t in targets[:-1])])
-                shift = [int(first[targets.index(importances[k].target)]) for k, _ in chosen]
+                shift = [int(first[self.arrangement[k]]) for k, _ in chosen]
                 self._parts[element] = _Part(element, elements, importances, chosen, shift)
 
     def rows(self, which: Indices) -> "list[Rows]":

@@ -67,23 +67,6 @@ class Importance:
             total += float(np.maximum.reduceat(pairs, a.feature_start).sum())
         return total / self.query.total if self.query.total else 0.0
 
-    def sample_points(self, position: Array, angle: Array) -> Array:
-        """Where the samples of poses are.
-
-        Parameters
-        ----------
-        position : ndarray of shape (m, 2)
-        angle : ndarray of shape (m,)
-
-        Returns
-        -------
-        ndarray of shape (s, m, 2)
-        """
-        c, s = np.cos(angle), np.sin(angle)
-        x = position[:, 0] + np.multiply.outer(self.samples[:, 0], c) - np.multiply.outer(self.samples[:, 1], s)
-        y = position[:, 1] + np.multiply.outer(self.samples[:, 0], s) + np.multiply.outer(self.samples[:, 1], c)
-        return np.stack([x, y], axis=-1)
-
     def directed(self, element: ElementType) -> NDArray[np.bool_]:
         """Which entries ask for a direction.
 

@@ -1,7 +1,7 @@
 """Candidates moved onto the exact maximum: a result must not move when the grid does (section 4.5)."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,6 +84,26 @@ class Refined:
         """
         return Refined(self.which[chosen], self.position[chosen], self.angle[chosen], self.value[chosen])
 
+    def bettered(self, position: Array, angle: Array, value: Array) -> "Refined":
+        """Each pose, or the one offered in its place where that is worth more.
+
+        Parameters
+        ----------
+        position : ndarray of shape (k, 2)
+        angle, value : ndarray of shape (k,)
+
+        Returns
+        -------
+        Refined
+        """
+        better = value > self.value
+        return Refined(
+            self.which,
+            np.where(better[:, None], position, self.position),
+            np.where(better, angle, self.angle),
+            np.maximum(self.value, value),
+        )
+
 
 def refine(
     importances: Sequence[Importance], candidates: Sequence[Candidates], factor: Sequence[float] | None = None
@@ -118,7 +138,7 @@ def refine(
         np.full(len(which), -1.0),
     )
     strong = Batch(importances, STRONG)
-    rivals = _Rivals(importances, strong.unit, np.ones(len(importances)) if factor is None else np.array(factor))
+    rivals = _Rivals(strong, np.ones(len(importances)) if factor is None else np.array(factor))
     found = _descend(strong, start, range(ITERATIONS + 1), rivals)
     found = _climb(strong, _probe(strong, found))
     value = Batch(importances).importance(found.which, found.position, found.angle)
@@ -128,12 +148,11 @@ def refine(
 class _Rivals:
     """Which candidates stand against one another: those of one arrangement, in every sense and at every scale."""
 
-    def __init__(self, importances: Sequence[Importance], unit: Array, factor: Array) -> None:
-        targets = list(dict.fromkeys(i.target for i in importances))
-        self._arrangement = np.array([targets.index(i.target) for i in importances])
+    def __init__(self, batch: Batch, factor: Array) -> None:
+        self._arrangement = batch.arrangement
         self._factor = factor
-        self._unit = unit
-        self._candidates = max(PER_PARENT, importances[0].query.options.candidates)
+        self._unit = batch.unit
+        self._candidates = max(PER_PARENT, batch.query.options.candidates)
 
     def leading(self, poses: Refined, most: int, share: float) -> Indices:
         """The best candidates of each importance, one per maximum; in the order of the poses."""
@@ -190,12 +209,7 @@ def _descend(batch: Batch, poses: Refined, iterations: range, rivals: _Rivals | 
         better = value > best.value
         # A step too far is taken again from the best pose, half as long.
         fell = (value < FALL * best.value)[:, None]
-        best = Refined(
-            best.which,
-            np.where(better[:, None], position, best.position),
-            np.where(better, angle, best.angle),
-            np.maximum(best.value, value),
-        )
+        best = best.bettered(position, angle, value)
         # Far steps lead to other maxima, which have candidates of their own.
         size = np.abs(step / batch.unit[best.which]).max(axis=1, keepdims=True)
         step = step * np.minimum(1.0, 2.0 * 0.8**iteration / np.maximum(size, 1e-12))
@@ -221,19 +235,16 @@ def _probe(batch: Batch, poses: Refined) -> Refined:
     c, s = np.cos(leading.angle), np.sin(leading.angle)
     width = batch.unit[leading.which, :1]
     rows = batch.rows(leading.which)
-    best, place = leading.value, leading.position
+    best = leading
     for way in (np.column_stack([c, s]), np.column_stack([-s, c])):
         for far in PROBES:
             for sign in (1, -1):
                 around = leading.position + sign * far * width * way
-                value = batch.total(rows, around, leading.angle)
-                better = value > best
-                best = np.where(better, value, best)
-                place = np.where(better[:, None], around, place)
-    gains = np.flatnonzero(best > leading.value)
+                best = best.bettered(around, leading.angle, batch.total(rows, around, leading.angle))
+    gains = np.flatnonzero(best.value > leading.value)
     if not len(gains):
         return poses
-    start = Refined(leading.which[gains], place[gains], leading.angle[gains], np.full(len(gains), -1.0))
+    start = replace(best.of(gains), value=np.full(len(gains), -1.0))
     found = _descend(batch, start, AGAIN)
     position, angle, value = poses.position.copy(), poses.angle.copy(), poses.value.copy()
     better = found.value > leading.value[gains]
@@ -259,14 +270,7 @@ def _climb(batch: Batch, poses: Refined) -> Refined:
                 step = sign * reach[:, :2] * np.column_stack([np.cos(angle), np.sin(angle)])
                 position = best.position if way == 2 else best.position + step
                 angle = best.angle + sign * reach[:, 2] if way == 2 else best.angle
-                value = batch.total(rows, position, angle)
-                better = value > best.value
-                best = Refined(
-                    best.which,
-                    np.where(better[:, None], position, best.position),
-                    np.where(better, angle, best.angle),
-                    np.maximum(value, best.value),
-                )
+                best = best.bettered(position, angle, batch.total(rows, position, angle))
         reach = np.where((best.value > before)[:, None], reach, reach / 2)
     position, angle, value = poses.position.copy(), poses.angle.copy(), poses.value.copy()
     position[lead], angle[lead], value[lead] = best.position, best.angle, best.value
