@@ -162,7 +162,7 @@ def _pose_of_placed(item: bpy.types.Object, e: Element, rest: np.ndarray, plane:
     """The pose that a result of a placement stands for: the centre and the direction of its rectangle."""
     frame = np.array(item.matrix_world) @ np.linalg.inv(np.diag((*np.multiply(e.scale, e.stretch), 1.0, 1.0)) @ rest)
     x, y, _ = plane.to_plane([frame[:3, 3]])[0]
-    axis = plane.frame[:3, :3].T @ frame[:3, 0]
+    axis = plane.matrix[:3, :3].T @ frame[:3, 0]
     return Pose((x, y), float(np.arctan2(axis[1], axis[0])))
 
 

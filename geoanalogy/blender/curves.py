@@ -1,5 +1,7 @@
-"""Curves and grease-pencil strokes as rings in space."""
+"""Curves and grease-pencil strokes as lines and rings in space."""
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import pairwise
 
 import bpy
@@ -13,6 +15,24 @@ Array = NDArray[np.float64]
 
 #: Segments per piece of a Bézier stroke, which has no resolution of its own.
 STROKE_RESOLUTION = 12
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line as it is drawn.
+
+    Attributes
+    ----------
+    points : ndarray of shape (n, 3)
+        In its object's coordinates; a cyclic one does not repeat its first point.
+    cyclic : bool
+    name : str
+        What it is called in messages.
+    """
+
+    points: Array
+    cyclic: bool
+    name: str
 
 
 def curve_rings(data: bpy.types.Curve, name: str) -> list[Array]:
@@ -35,7 +55,24 @@ def curve_rings(data: bpy.types.Curve, name: str) -> list[Array]:
     InputError
         Where a spline is neither cyclic nor nearly closed.
     """
-    rings = []
+    return [closed(line.points, line.cyclic, line.name) for line in curve_lines(data, name)]
+
+
+def curve_lines(data: bpy.types.Curve, name: str) -> Iterator[Line]:
+    """The splines of a curve as lines, in its object's coordinates.
+
+    Parameters
+    ----------
+    data : bpy.types.Curve
+        Its bevel, extrusion and modifiers play no part.
+    name : str
+        What it is called in messages.
+
+    Yields
+    ------
+    Line
+        A line per spline; Bézier and NURBS splines at the curve's resolution.
+    """
     for i, spline in enumerate(data.splines):
         if spline.type == "BEZIER":
             knots = [_vectors(spline.bezier_points, key) for key in ("handle_left", "co", "handle_right")]
@@ -44,8 +81,7 @@ def curve_rings(data: bpy.types.Curve, name: str) -> list[Array]:
             points = _nurbs_points(data, i)
         else:
             points = _vectors(spline.points, "co", 4)[:, :3]
-        rings.append(closed(points, spline.use_cyclic_u, f"spline {i + 1} of {name}"))
-    return rings
+        yield Line(points, spline.use_cyclic_u, f"spline {i + 1} of {name}")
 
 
 def stroke_rings(data: bpy.types.ID, name: str) -> list[Array]:
@@ -67,7 +103,23 @@ def stroke_rings(data: bpy.types.ID, name: str) -> list[Array]:
     InputError
         Where a stroke is neither cyclic nor nearly closed.
     """
-    rings: list[Array] = []
+    return [closed(line.points, line.cyclic, line.name) for line in stroke_lines(data, name)]
+
+
+def stroke_lines(data: bpy.types.ID, name: str) -> Iterator[Line]:
+    """The strokes of a grease-pencil drawing as lines, in its object's coordinates.
+
+    Parameters
+    ----------
+    data : bpy.types.GreasePencil
+        Of its visible layers, the frame at the playhead counts.
+    name : str
+        What it is called in messages.
+
+    Yields
+    ------
+    Line
+    """
     for layer in data.layers:
         frame = layer.current_frame()
         if layer.hide or frame is None or not len(frame.drawing.curve_offsets):
@@ -84,8 +136,7 @@ def stroke_rings(data: bpy.types.ID, name: str) -> list[Array]:
             if kind[i] == _BEZIER:
                 points = bezier_points(handles[0][a:b], points, handles[1][a:b], bool(cyclic[i]), STROKE_RESOLUTION)
             points = points @ placed[:3, :3].T + placed[:3, 3]
-            rings.append(closed(points, bool(cyclic[i]), f"stroke {i + 1} of layer {layer.name!r} of {name}"))
-    return rings
+            yield Line(points, bool(cyclic[i]), f"stroke {i + 1} of layer {layer.name!r} of {name}")
 
 
 def closed(points: Array, cyclic: bool, name: str) -> Array:

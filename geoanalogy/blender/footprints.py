@@ -38,7 +38,7 @@ def pose_of(item: bpy.types.Object, plane: Plane) -> Pose:
     """
     matrix = np.array(item.matrix_world)
     x, y, _ = plane.to_plane([matrix[:3, 3]])[0]
-    axis = plane.frame[:3, :3].T @ matrix[:3, 0]
+    axis = plane.matrix[:3, :3].T @ matrix[:3, 0]
     if np.hypot(axis[0], axis[1]) <= PARALLEL * np.linalg.norm(axis):
         raise InputError(f"object {item.name!r} has its x axis upright on the plan; turn it, x is where it faces")
     return Pose((x, y), float(np.arctan2(axis[1], axis[0])))
@@ -61,7 +61,7 @@ def frame_of(pose: Pose, plane: Plane) -> Array:
     placed = np.eye(4)
     placed[:2, :2] = ((c, -s), (s, c))
     placed[:2, 3] = pose.position
-    return plane.frame @ placed
+    return plane.matrix @ placed
 
 
 def rest_of(item: bpy.types.Object, pose: Pose, plane: Plane) -> Array:

@@ -289,7 +289,7 @@ def _holds(ring: Array, point: Array) -> bool:
 def _polygon(item: bpy.types.Object, plane: Plane, rings: list[Array], id: str, label: str) -> Polygon:
     orientation = item.get(names.ORIENTATION)
     if orientation is not None:
-        x, y = plane.to_plane(np.array(item.matrix_world)[:3, 0] + plane.frame[:3, 3])[:2]
+        x, y = plane.to_plane(np.array(item.matrix_world)[:3, 0] + plane.origin)[:2]
         orientation = float(orientation) + float(np.arctan2(y, x))
     segments = item.get(names.SEGMENT_LABELS)
     return Polygon(

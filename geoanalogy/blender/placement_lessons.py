@@ -95,7 +95,9 @@ def rejected_by(node: bpy.types.Node) -> list[Rejected]:
     """
     entries = (node.get(names.REJECTED) or {}).values()
     return [
-        Rejected(Plane(np.array(entry["frame"].to_list()).reshape(4, 4)), Rectangle(*entry["rectangle"].to_list()))
+        Rejected(
+            Plane.of_matrix(np.reshape(entry["frame"].to_list(), (4, 4))), Rectangle(*entry["rectangle"].to_list())
+        )
         for entry in entries
     ]
 
@@ -112,7 +114,7 @@ def write_rejected(node: bpy.types.Node, rejected: Sequence[Rejected]) -> None:
     if rejected:
         node[names.REJECTED] = {
             str(i): {
-                "frame": one.plane.frame.ravel().tolist(),
+                "frame": one.plane.matrix.ravel().tolist(),
                 "rectangle": [getattr(one.rectangle, name) for name in ("x", "y", "width", "height", "angle")],
             }
             for i, one in enumerate(rejected)

@@ -143,7 +143,7 @@ def add_plan(context: bpy.types.Context, scene: Scene, name: str) -> list[bpy.ty
     plan = ensure_plan(context.scene, name)
     if any(scene.offset):
         plan[OFFSET] = list(scene.offset)
-    level = Plane(np.eye(4))
+    level = Plane()
     made = {polygon.id: _add_polygon(plan, polygon, level) for polygon in scene.polygons}
     for polygon in scene.polygons:
         # Blender may have given another name than the id.
@@ -167,7 +167,7 @@ def _add_polygon(holder: bpy.types.Collection, polygon: Polygon, plane: Plane) -
     drawn.display_type = "WIRE"
     drawn.hide_render = True
     if polygon.orientation is not None:
-        x, y = plane.to_plane([np.array(drawn.rotation_euler.to_matrix())[:, 0] + plane.frame[:3, 3]])[0, :2]
+        x, y = plane.to_plane([np.array(drawn.rotation_euler.to_matrix())[:, 0] + plane.origin])[0, :2]
         drawn[names.ORIENTATION] = polygon.orientation - float(np.arctan2(y, x))
     if any(polygon.segment_labels):
         drawn[names.SEGMENT_LABELS] = ",".join(label.replace(",", " ") for label in polygon.segment_labels)
@@ -182,7 +182,7 @@ def _mesh(name: str | None, ring: Array) -> bpy.types.Mesh:
 
 
 def _rotation(plane: Plane) -> Euler:
-    return Matrix(plane.frame[:3, :3].tolist()).to_euler()
+    return Matrix(plane.matrix[:3, :3].tolist()).to_euler()
 
 
 def _filled_curve(name: str | None, rings: Sequence[Array], plane: Plane) -> bpy.types.Curve:
@@ -191,7 +191,7 @@ def _filled_curve(name: str | None, rings: Sequence[Array], plane: Plane) -> bpy
     for ring in rings:
         spline = curve.splines.new("POLY")
         spline.points.add(len(ring) - 1)
-        flat = ring @ plane.frame[:3, :3]
+        flat = ring @ plane.matrix[:3, :3]
         points = np.column_stack([flat[:, :2], np.zeros(len(ring)), np.ones(len(ring))])
         spline.points.foreach_set("co", points.ravel().astype(np.float32))
         spline.use_cyclic_u = True
@@ -246,5 +246,5 @@ def _plane_below(context: bpy.types.Context, item: bpy.types.Object, depsgraph: 
     try:
         grounds = read_grounds(context.scene, depsgraph, {item.name})
     except InputError:
-        return Plane(np.eye(4))
+        return Plane()
     return min((g.plane for g in grounds), key=lambda p: abs(p.to_plane([item.matrix_world.translation])[0, 2]))

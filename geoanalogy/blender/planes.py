@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError
+from ..geometry.frame import SPACE, Frame
 
 Array = NDArray[np.float64]
 
@@ -30,15 +31,32 @@ SAME_PLANE_ASIDE = 0.002
 
 @dataclass(frozen=True)
 class Plane:
-    """A plane with its frame.
+    """A plane of the world, by the frame that lies on it.
 
     Attributes
     ----------
-    frame : ndarray of shape (4, 4)
-        From plane coordinates (x, y, height, 1) to the world's; its columns are the axes, orthonormal, and the origin.
+    frame : Frame
+        Its origin and axes in the world.
     """
 
-    frame: Array
+    frame: Frame = SPACE
+
+    @classmethod
+    def of_matrix(cls, matrix: ArrayLike) -> "Plane":
+        """The plane of a matrix.
+
+        Parameters
+        ----------
+        matrix : array_like of shape (4, 4)
+            From plane coordinates (x, y, height, 1) to the world's; its columns are the axes, orthonormal, and the
+            origin.
+
+        Returns
+        -------
+        Plane
+        """
+        given = np.asarray(matrix, float)
+        return cls(Frame.of(given[:3, 3], given[:3, 0], given[:3, 1]))
 
     @classmethod
     def through(cls, point: ArrayLike, normal: ArrayLike) -> "Plane":
@@ -55,19 +73,38 @@ class Plane:
         Plane
         """
         n = np.asarray(normal, float) / np.linalg.norm(normal)
-        frame = np.eye(4)
         if np.hypot(n[0], n[1]) < PARALLEL:
-            frame[2, 3] = np.asarray(point, float)[2]
-            return cls(frame)
+            return cls(Frame((0.0, 0.0, float(np.asarray(point, float)[2]))))
         x = np.array([-n[1], n[0], 0.0]) / np.hypot(n[0], n[1])
-        frame[:3, 0], frame[:3, 1], frame[:3, 2] = x, np.cross(n, x), n
-        frame[:3, 3] = n * np.dot(n, np.asarray(point, float))
-        return cls(frame)
+        return cls(Frame.of(n * np.dot(n, np.asarray(point, float)), x, np.cross(n, x)))
+
+    @property
+    def matrix(self) -> Array:
+        """From plane coordinates (x, y, height, 1) to the world's, shape (4, 4)."""
+        return self.frame.matrix
+
+    @property
+    def origin(self) -> Array:
+        """Of the frame, in the world, shape (3,)."""
+        return np.array(self.frame.origin)
 
     @property
     def normal(self) -> Array:
         """Unit normal in the world, shape (3,)."""
-        return self.frame[:3, 2]
+        return self.frame.normal
+
+    def under(self, surface: Frame) -> "Plane":
+        """The plane of a surface whose frame is given in this plane's coordinates.
+
+        Parameters
+        ----------
+        surface : Frame
+
+        Returns
+        -------
+        Plane
+        """
+        return self if surface is SPACE else Plane(surface.inside(self.frame))
 
     def to_plane(self, points: ArrayLike) -> Array:
         """World points in plane coordinates: x, y and height above the plane.
@@ -80,7 +117,7 @@ class Plane:
         -------
         ndarray of shape (n, 3)
         """
-        return (np.asarray(points, float) - self.frame[:3, 3]) @ self.frame[:3, :3]
+        return self.frame.to_plane(points)
 
     def to_world(self, points: ArrayLike) -> Array:
         """The inverse of `to_plane`.
@@ -93,7 +130,7 @@ class Plane:
         -------
         ndarray of shape (n, 3)
         """
-        return np.asarray(points, float) @ self.frame[:3, :3].T + self.frame[:3, 3]
+        return self.frame.to_space(points)
 
     def is_coplanar(self, other: "Plane", size: float, share: float = SAME_PLANE) -> bool:
         """Whether another plane is this one, seen from either side, for things of a size.
@@ -124,7 +161,7 @@ class Plane:
         -------
         float
         """
-        return float(abs(np.dot(self.normal, other.frame[:3, 3] - self.frame[:3, 3])))
+        return float(abs(np.dot(self.normal, other.origin - self.origin)))
 
 
 def extent(points: Array) -> float:

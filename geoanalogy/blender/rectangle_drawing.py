@@ -114,7 +114,7 @@ def sight_on(plane: Plane, origin: ArrayLike, direction: ArrayLike) -> float | N
     steep = float(plane.normal @ direction)
     if abs(steep) <= EDGE_ON * np.linalg.norm(direction):
         return None
-    away = float(plane.normal @ (plane.frame[:3, 3] - np.asarray(origin, float))) / steep
+    away = float(plane.normal @ (plane.origin - np.asarray(origin, float))) / steep
     return away if away > 0 else None
 
 

@@ -91,7 +91,7 @@ def rectangle_of(item: bpy.types.Object, plane: Plane, depsgraph: bpy.types.Deps
     InputError
         Where the object has no extent there.
     """
-    axes = plane.frame[:3, :3].T @ np.array(item.matrix_world)[:3, :3]
+    axes = plane.matrix[:3, :3].T @ np.array(item.matrix_world)[:3, :3]
     lengths = np.linalg.norm(axes, axis=0)
     share = np.hypot(axes[0], axes[1]) / np.where(lengths > 0, lengths, 1.0)
     along = axes[:2, int(np.argmax(share >= share.max() - SAME_SHARE))]

@@ -163,7 +163,7 @@ def plane_of(node: bpy.types.Node) -> Plane:
     Plane
     """
     stored = node.get(names.FRAME)
-    return Plane(np.eye(4) if stored is None else np.array(stored.to_list()).reshape(4, 4))
+    return Plane() if stored is None else Plane.of_matrix(np.reshape(stored.to_list(), (4, 4)))
 
 
 def works_everywhere(node: bpy.types.Node) -> bool:
@@ -306,7 +306,7 @@ def write_placed(node: bpy.types.Node, placed: Sequence[Placed], plane: Plane) -
         | ({} if one.target is None else {"target": one.target})
         for i, one in enumerate(placed)
     }
-    node[names.FRAME] = plane.frame.ravel().tolist()
+    node[names.FRAME] = plane.matrix.ravel().tolist()
 
 
 def placed_by(node: bpy.types.Node) -> list[Placed]:

@@ -198,7 +198,7 @@ def test_level_planes_keep_world_coordinates_and_storeys_are_apart():
     face("ground floor", ROOM, "flat")
     face("rug", SQUARE, "rug", at=(1, 1, 0.01))
     face("upper floor", ROOM, "flat", at=(0, 0, 3.0))
-    lower, upper = sorted(read(), key=lambda g: g.plane.frame[2, 3])
+    lower, upper = sorted(read(), key=lambda g: g.plane.origin[2])
     assert [p.id for p in lower.scene.polygons] == ["ground floor", "rug"]
     assert same_ring(upper.scene.polygons[0].points, ROOM)
 

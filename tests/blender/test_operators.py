@@ -87,9 +87,7 @@ def test_set_footprint_takes_hull_outline_or_box(kind, area):
     assert bpy.ops.geoanalogy.set_footprint(EXEC, kind=kind) == {"FINISHED"}
     polygon = engine().Polygon(np.array(sofa["ga_footprint"].to_list()).reshape(-1, 2))
     assert polygon.area == pytest.approx(area, rel=1e-4)
-    ring = bridge("footprints").footprint_of(
-        sofa, bridge("planes").Plane(np.eye(4)), bpy.context.evaluated_depsgraph_get()
-    )
+    ring = bridge("footprints").footprint_of(sofa, bridge("planes").Plane(), bpy.context.evaluated_depsgraph_get())
     assert engine().Polygon(ring).centroid == pytest.approx(polygon.centroid, abs=1e-5)
     assert bpy.ops.geoanalogy.set_footprint(EXEC, kind="none") == {"FINISHED"}
     assert "ga_footprint" not in sofa
@@ -185,7 +183,7 @@ def test_the_mirrored_twin_of_a_tilted_object_is_its_mirror_image():
     item.rotation_euler = (0.2, -0.3, 0.4)
     item.scale = (1.0, 2.0, 3.0)
     bpy.context.view_layer.update()
-    level = planes.Plane(np.eye(4))
+    level = planes.Plane()
     own = bridge("footprints").pose_of(item, level)
     rest = bridge("footprints").rest_of(item, own, level)
     pose = engine("poses.pose").Pose((2.0, 1.0), 0.7, mirrored=True)
