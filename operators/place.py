@@ -13,6 +13,7 @@ from .edit import LongEdit, needs_object_mode
 FITS = [
     ("scale", "Stretch", "One object, stretched to fill the place"),
     ("repeat", "Repeat", "As many objects of their own size as fit"),
+    ("divide", "Divide", "As many objects as fit best, stretched to fill the place"),
 ]
 
 

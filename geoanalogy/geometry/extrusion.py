@@ -37,6 +37,8 @@ class FaceLabels:
         Faces of a roof.
     gable : str
         Walls under a roof.
+    outside : str
+        What a room shows of itself outside: its walls' outer faces, and below.
     """
 
     side: str = "facade"
@@ -44,6 +46,7 @@ class FaceLabels:
     bottom: str = "base"
     roof: str = "roof"
     gable: str = "gable"
+    outside: str = "outside"
 
 
 def extrude(
@@ -53,8 +56,9 @@ def extrude(
     roof: Roof | None = None,
     segment_labels: Sequence[str] = (),
     up: ArrayLike = (0.0, 0.0, 1.0),
+    walls: float = 0.0,
 ) -> Solid:
-    """The solid between a polygon and the polygon moved along the normal of its plane.
+    """The solid between a polygon and the polygon moved along the normal of its plane, or the walls round that.
 
     Parameters
     ----------
@@ -69,6 +73,10 @@ def extrude(
     up : array_like of shape (3,)
         The direction, in the coordinates of the polygon's plane, in which the y axes of the sides point as far as they
         can.
+    walls : float
+        Thickness of walls and floor, scene units. Where it is not 0, the polygon is a room that is open at the far end:
+        the sides look inwards, what lies in the polygon is the "floor" with the label of the bottom, and the top is the
+        rim of the walls.
 
     Returns
     -------
@@ -79,13 +87,19 @@ def extrude(
     Raises
     ------
     InputError
-        For a height of 0 or that is not finite, and where a roof does not close.
+        For a height of 0 or that is not finite, where a roof does not close, for walls that are thinner than nothing,
+        and for a room with a roof.
     """
     if not np.isfinite(height) or height == 0.0:
         raise InputError(f"the height is {height:g}; give a positive one")
     labels = labels or FaceLabels()
     outline = _Outline.of(polygon, segment_labels)
-    solid = _prism(outline, abs(height), labels, None if roof is None or roof.kind == "flat" else roof)
+    pitched = None if roof is None or roof.kind == "flat" else roof
+    if not (np.isfinite(walls) and walls >= 0.0):
+        raise InputError(f"the walls are {walls:g} thick; give a positive number, or 0 for a full body")
+    if walls > 0.0 and pitched is not None:
+        raise InputError("a room of walls is open above; leave out its roof, or extrude a full body")
+    solid = _room(outline, abs(height), labels, walls) if walls else _prism(outline, abs(height), labels, pitched)
     if height < 0:
         solid = _mirrored(solid)
     return replace(solid, faces=tuple(replace(face, frame=face.frame.upright(up)) for face in solid.faces))
@@ -150,6 +164,38 @@ def _prism(outline: _Outline, height: float, labels: FaceLabels, roof: Roof | No
     over = [(_raised(np.concatenate(eaves.rings), height), triangulated(eaves.rings)[:, ::-1], 0)]
     _roofed(eaves, height, labels, roof, over, above)
     return combined(solid, [(assembled(over, above), Frame())], "merge")
+
+
+def _room(outline: _Outline, height: float, labels: FaceLabels, walls: float) -> Solid:
+    """Walls round an outline, and a floor below it."""
+    outer = outline.widened(walls)
+    every, around = np.concatenate(outline.rings), np.concatenate(outer.rings)
+    slab = triangulated(outer.rings)
+    # The rim lies between the two outlines: the ground of one is the hole of the other.
+    rings = (*outer.rings, *(ring[::-1] for ring in outline.rings))
+    faces = [
+        Face("bottom", labels.outside, Frame((0.0, 0.0, -walls), x=(-1.0, 0.0, 0.0))),
+        Face("floor", labels.bottom, Frame()),
+        Face("top", labels.top, Frame(origin=(0.0, 0.0, height))),
+    ]
+    parts = [
+        (_raised(around, -walls), slab[:, ::-1], 0),
+        (_raised(every, 0.0), triangulated(outline.rings), 1),
+        (_raised(np.concatenate(rings), height), triangulated(rings), 2),
+    ]
+    for one, foot, side in ((outline, 0.0, "side"), (outer, -walls, "outside")):
+        number = 0
+        for ring, names in zip(one.rings, one.labels, strict=True):
+            for a, b, name in zip(ring, np.roll(ring, -1, axis=0), names, strict=True):
+                inner = side == "side"
+                start, end = (b, a) if inner else (a, b)
+                along = (end - start) / np.hypot(*(end - start))
+                corners = np.array([(*start, foot), (*end, foot), (*end, height), (*start, height)])
+                parts.append((corners, np.array([(0, 1, 2), (0, 2, 3)]), len(faces)))
+                label = f"{name} {labels.side}".strip() if inner else labels.outside
+                faces.append(Face(f"{side} {number}", label, Frame.of((*start, foot), (*along, 0.0), (0.0, 0.0, 1.0))))
+                number += 1
+    return assembled(parts, faces)
 
 
 def _roofed(

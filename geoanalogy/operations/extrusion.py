@@ -61,6 +61,9 @@ class Extrusion(Operation):
         Whether it reaches below the surface, for what will be subtracted.
     roof : Roof
         At the far end.
+    walls : float
+        Thickness of walls and floor: the polygon becomes a room that is open at the far end, whose sides look inwards;
+        0: a full body.
     faces : FaceLabels
         What the new surfaces are called. Sides that face a labelled edge of the polygon below get that edge's label in
         front, "street facade"; sides on an upright surface that look up or down "upper" or "lower".
@@ -74,6 +77,7 @@ class Extrusion(Operation):
     factor: tuple[float, float] = field(default=(1.0, 1.0), metadata=stored(_read_range, list))
     inwards: bool = field(default=False, metadata=stored(flag))
     roof: Roof = field(default_factory=Roof, metadata=stored(_read_roof, asdict))
+    walls: float = field(default=0.0, metadata=stored(number))
     faces: FaceLabels = field(default_factory=FaceLabels, metadata=stored(_read_labels, asdict))
 
     def propose(self, layout: Layout, node: str, seed: int) -> Stepper[tuple[tuple[Element, ...], tuple[str, ...]]]:
@@ -99,9 +103,12 @@ class Extrusion(Operation):
             raise InputError(f"the height is {height:g}; give a positive one")
         up = np.round(element.place.axes[:, 2], 9) + 0.0
         rings = tuple(ring.tobytes() for ring in polygon.rings)
-        name = ("extruded", rings, height, self.inwards, self.faces, self.roof, labels, tuple(up.tolist()))
+        name = ("extruded", rings, height, self.inwards, self.walls, self.faces, self.roof, labels, tuple(up.tolist()))
         solid: Solid = layout.ground.memory.recall(
-            name, lambda: extrude(polygon, -height if self.inwards else height, self.faces, self.roof, labels, up)
+            name,
+            lambda: extrude(
+                polygon, -height if self.inwards else height, self.faces, self.roof, labels, up, self.walls
+            ),
         )
         return solid
 

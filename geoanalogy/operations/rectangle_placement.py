@@ -79,7 +79,7 @@ def _read_flags(value: Any) -> tuple[bool, ...]:
 
 
 def _read_fit(value: Any) -> tuple[Fit, Fit]:
-    read = one_of("scale", "repeat")
+    read = one_of("scale", "repeat", "divide")
     along, across = value
     return read(along), read(across)  # type: ignore[return-value]
 
@@ -99,7 +99,7 @@ class RectanglePlacement(PlacingOne):
     size : (float, float)
         Width and height of the library object.
     fit : (str, str)
-        "scale" or "repeat", along a placement's width and along its height (section 5.6).
+        "scale", "repeat" or "divide", along a placement's width and along its height (section 5.6).
     gap : (float, float)
         Least distance between repeated objects, along either axis.
     fill : tuple of bool

@@ -1,4 +1,4 @@
-"""Element arrays (section 5.6): an element fills a placement by being scaled or by being repeated, per axis."""
+"""Element arrays (section 5.6): an element fills a placement by being scaled or repeated, per axis, or by both."""
 
 from collections.abc import Sequence
 from typing import Literal
@@ -10,7 +10,7 @@ from ..errors import InputError
 from ..geometry.rectangle import Rectangle
 
 Array = NDArray[np.float64]
-Fit = Literal["scale", "repeat"]
+Fit = Literal["scale", "repeat", "divide"]
 
 #: Elements along one axis at most: a gap typed with a digit missing must not make millions.
 MOST_REPEATED = 10_000
@@ -65,8 +65,9 @@ def element_array(
     placement : Rectangle
     size : sequence of two float
         Width and height of the element, scene units.
-    fit : tuple of two of "scale", "repeat"
-        Along the placement's width and along its height: stretched to fill it, or repeated in its own size.
+    fit : tuple of two of "scale", "repeat", "divide"
+        Along the placement's width and along its height: stretched to fill it, repeated in its own size, or repeated as
+        often as it fits best and stretched, so that with the gaps between them they fill the placement.
     gap : sequence of two float
         Least distance between repeated elements along either axis.
 
@@ -93,8 +94,13 @@ def element_array(
         elif fit[axis] == "repeat":
             offsets.append(repeated(extent[axis], float(size[axis]), float(gap[axis])))
             sizes.append(float(size[axis]))
+        elif fit[axis] == "divide":
+            step = float(size[axis] + gap[axis])
+            shared = max(1, round((extent[axis] + float(gap[axis])) / step)) * step - float(gap[axis])
+            offsets.append(repeated(shared, float(size[axis]), float(gap[axis])) * (extent[axis] / shared))
+            sizes.append(float(size[axis]) * (extent[axis] / shared))
         else:
-            raise InputError(f"the fit along the {name} is {fit[axis]!r}; choose 'scale' or 'repeat'")
+            raise InputError(f"the fit along the {name} is {fit[axis]!r}; choose 'scale', 'repeat' or 'divide'")
     c, s = np.cos(placement.angle), np.sin(placement.angle)
     return [
         Rectangle(placement.x + c * u - s * v, placement.y + s * u + c * v, sizes[0], sizes[1], placement.angle)

@@ -192,7 +192,7 @@ def test_it_is_stored_with_its_model_and_gives_the_same_again():
     [
         ({"size": (0.0, 0.2)}, "has no area"),
         ({"gap": (-1.0, 0.0)}, "the distance along the width is -1.0; give a number that is not negative"),
-        ({"fit": ("repeat", "wrap")}, "the fit along the height is 'wrap'; choose 'scale' or 'repeat'"),
+        ({"fit": ("repeat", "wrap")}, "the fit along the height is 'wrap'; choose 'scale', 'repeat' or 'divide'"),
         ({"fill": (True,)}, "4 polygons and 1 signs to fill for 4 examples"),
         ({"grounds": ()}, "0 polygons and 0 signs to fill for 4 examples; give one of each per example"),
     ],

@@ -54,6 +54,15 @@ def test_each_axis_scales_or_repeats():
     assert [(e.x, e.y) for e in both] == [(1.5, 0.5), (5, 0.5), (8.5, 0.5), (1.5, 1.5), (5, 1.5), (8.5, 1.5)]
 
 
+@pytest.mark.parametrize(("width", "count"), [(0.4, 1), (1.2, 2), (1.8, 3), (1.95, 3)])
+def test_divided_elements_and_their_gaps_fill_the_placement(width, count):
+    made = element_array(ga.Rectangle(1.0, 2.0, width, 0.7), (0.5, 0.5), ("divide", "scale"), (0.1, 0.0))
+    lows, highs = (np.array([r.x + side * r.width / 2 for r in made]) for side in (-1, 1))
+    assert len(made) == count and all(r.height == pytest.approx(0.7) for r in made)
+    assert (lows[0], highs[-1]) == pytest.approx((1.0 - width / 2, 1.0 + width / 2))
+    assert lows[1:] - highs[:-1] == pytest.approx([made[0].width / 5] * (count - 1))
+
+
 def test_the_elements_of_a_turned_placement_are_turned_about_its_centre():
     up, down = element_array(ga.Rectangle(1, 1, 4, 1, -np.pi / 2), (1, 1), ("repeat", "scale"), (2, 0))
     assert np.allclose([(up.x, up.y), (down.x, down.y)], [(1, 2.5), (1, -0.5)])
@@ -66,7 +75,7 @@ def test_the_elements_of_a_turned_placement_are_turned_about_its_centre():
         (((0, 1),), "the element has the width 0; give a positive number"),
         (((1, float("nan")),), "the element has the height nan"),
         (((1, 1), ("scale", "scale"), (0, -1)), "the distance along the height is -1"),
-        (((1, 1), ("tile", "scale")), "the fit along the width is 'tile'; choose 'scale' or 'repeat'"),
+        (((1, 1), ("tile", "scale")), "the fit along the width is 'tile'; choose 'scale', 'repeat' or 'divide'"),
         (((1e-6, 1), ("repeat", "scale")), "give a larger element or a larger distance"),
     ],
 )

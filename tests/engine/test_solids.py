@@ -43,6 +43,45 @@ def street(solid):
     return next(s for s in surfaces(solid) if np.allclose(s.frame.normal, (0, -1, 0)))
 
 
+# ------------------------------------------------------------------------------------------------ rooms
+
+
+@pytest.mark.parametrize("polygon", [Polygon(rectangle(4, 3)), Polygon(L_SHAPE), COURT])
+def test_a_room_is_a_floor_and_walls_that_look_inwards(polygon):
+    labels = FaceLabels(side="wall", top="rim", bottom="floor", outside="plaster")
+    room = extrude(polygon, 2.5, labels, walls=0.2)
+    outer = shapely.Polygon(polygon.points, polygon.holes).buffer(0.2, join_style="mitre").area
+    assert room.is_closed and room.volume == pytest.approx(outer * 2.7 - polygon.area * 2.5)
+    (floor,) = surfaces(room, "floor")
+    assert floor.frame.normal.tolist() == [0, 0, 1] and floor.polygon.area == pytest.approx(polygon.area)
+    walls = surfaces(room, "wall")
+    assert len(walls) == sum(len(ring) for ring in polygon.rings)
+    for wall in walls:
+        middle = wall.frame.to_space([wall.polygon.centroid])[0]
+        assert wall.frame.axes[1].tolist() == [0, 0, 1]
+        assert polygon.shape.contains(shapely.Point((middle + 0.1 * wall.frame.normal)[:2]))
+        assert not polygon.shape.contains(shapely.Point((middle - 0.1 * wall.frame.normal)[:2]))
+
+
+def test_the_walls_of_a_room_have_the_labels_of_its_edges():
+    room = extrude(Polygon(rectangle(4, 3), segment_labels=("door", "", "back", "")), 2.5, walls=0.1)
+    assert {label: len(f) for label, f in room.by_label.items()} == {
+        "outside": 5,
+        "base": 1,
+        "top": 1,
+        "door facade": 1,
+        "facade": 2,
+        "back facade": 1,
+    }
+
+
+def test_a_room_refuses_walls_and_roofs_that_cannot_be():
+    with pytest.raises(InputError, match=r"walls are -0\.1 thick"):
+        extrude(Polygon(rectangle(4, 3)), 2.5, walls=-0.1)
+    with pytest.raises(InputError, match="open above; leave out its roof"):
+        extrude(Polygon(rectangle(4, 3)), 2.5, roof=Roof("hip"), walls=0.1)
+
+
 # ------------------------------------------------------------------------------------------------ frames
 
 
