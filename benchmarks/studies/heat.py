@@ -61,7 +61,7 @@ def heat_maps(model: ga.PoseModel, scene: ga.Scene, points: int = 5000) -> list[
         sheet = np.full(len(grid), np.nan)
         sheet[free] = 0.0
         for importance in model.importances(target):
-            fields.evaluate(r for a in importance.answers.values() for r in a.relations)
+            fields.evaluate(importance.relations)
             if importance.query.rigid:
                 values = _best_direction(importance, grid.points[free])
             else:

@@ -74,7 +74,7 @@ def find_candidates(
     importance : Importance
         Of the arrangement, for one sense and scale.
     fields : Fields
-        The arrangement's relation fields.
+        The arrangement's, with the importance's relations evaluated.
     blocked : ndarray of shape (points,), bool
         Grid points where no part of the object may be.
     taken : ndarray of shape (points,), bool
@@ -84,7 +84,6 @@ def find_candidates(
     -------
     Candidates
     """
-    fields.evaluate(r for a in importance.answers.values() for r in a.relations)
     if importance.query.rigid:
         return _of_footprint(importance, fields, blocked, taken)
     free = np.flatnonzero(~blocked & ~taken)

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..relations.elements import ElementType
+from ..relations.table import Positional
 from .arrangement import Arrangement
 from .batch import Batch
 from .matching import Sense, answers
@@ -57,6 +58,11 @@ class Importance:
         result = copy.copy(self)
         result.answers = {element: a.strongest(share) for element, a in self.answers.items()}
         return result
+
+    @property
+    def relations(self) -> tuple[Positional, ...]:
+        """The positional relations in which the example stands."""
+        return tuple(r for a in self.answers.values() for r in a.relations)
 
     @property
     def bound(self) -> float:

@@ -11,6 +11,7 @@ from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..progress import Progress, Stepper, run
+from ..relations.table import RELATIONS
 from ..tolerances import CONTAINED_SHARE
 from .arrangement import Arrangement, arrangement_of
 from .candidates import FOOTPRINT_SLACK, Candidates, find_candidates
@@ -49,7 +50,7 @@ MOST_CELLS = 4
 #: Grid spacing at least, in half-widths of level sets: finer grids find nothing that the refinement would not. The
 #: level sets that places of footprints are found with are wider.
 FINEST = 0.5
-FINEST_OF_FOOTPRINTS = 0.55
+FINEST_OF_FOOTPRINTS = 0.8
 
 
 class PoseModel:
@@ -197,6 +198,8 @@ class PoseModel:
             share = 1.0 if self._validation.may_jut_out else 2 * JUTTING_SHARE
             margin = share * float(np.hypot(*importance.samples.T).max())
             fields = self._fields(target, spacing, margin)
+            # Together with what the validation asks for: all relations share what the grid's points see.
+            fields.evaluate((RELATIONS["boundary distance"], *importance.relations))
             blocked = self._validation.blocked(target, fields, slack)
             # The example would outshine the other places of its room.
             taken = self._is_example(target, fields.grid.points, importance.mirrored)

@@ -260,17 +260,20 @@ def _climb(batch: Batch, poses: Refined) -> Refined:
     # Those that may turn out to be as good as the best are equally well served.
     lead = np.sort(table[value >= EQUALLY_GOOD * value[:, :1]])
     best = poses.of(lead)
-    rows = batch.rows(best.which)
+    # All six ways at once: there are few poses, and a call costs about as much as a thousand rows.
+    rows = batch.rows(np.repeat(best.which, 6))
     reach = FARTHEST_CLIMB * batch.unit[best.which]
+    every = np.arange(len(lead))
     for _ in range(CLIMBS):
         before = best.value
-        for way in (0, 1, 2):
-            for sign in (1.0, -1.0):
-                angle = best.angle + np.pi / 2 * way
-                step = sign * reach[:, :2] * np.column_stack([np.cos(angle), np.sin(angle)])
-                position = best.position if way == 2 else best.position + step
-                angle = best.angle + sign * reach[:, 2] if way == 2 else best.angle
-                best = best.bettered(position, angle, batch.total(rows, position, angle))
+        c, s = np.cos(best.angle), np.sin(best.angle)
+        ahead, across = reach[:, :1] * np.column_stack([c, s]), reach[:, 1:2] * np.column_stack([-s, c])
+        still = np.zeros_like(ahead)
+        position = best.position[:, None] + np.stack([ahead, -ahead, across, -across, still, still], axis=1)
+        angle = best.angle[:, None] + reach[:, 2:] * np.array([0, 0, 0, 0, 1, -1])
+        offered = batch.total(rows, position.reshape(-1, 2), angle.ravel()).reshape(angle.shape)
+        way = np.argmax(offered, axis=1)
+        best = best.bettered(position[every, way], angle[every, way], offered[every, way])
         reach = np.where((best.value > before)[:, None], reach, reach / 2)
     position, angle, value = poses.position.copy(), poses.angle.copy(), poses.value.copy()
     position[lead], angle[lead], value[lead] = best.position, best.angle, best.value

@@ -139,7 +139,7 @@ def importance_field(model: PoseModel, target: Arrangement, cells: int = CELLS) 
     angle, scale = np.full(len(free), model.pose.angle), np.ones(len(free))
     mirrored = np.zeros(len(free), dtype=bool)
     for importance in flat.importances(target):
-        fields.evaluate(r for a in importance.answers.values() for r in a.relations)
+        fields.evaluate(importance.relations)
         value, direction = accumulate_in_plane(importance, fields, free)
         better = value > best
         best[better], angle[better] = value[better], direction[better]
