@@ -6,6 +6,7 @@ from bpy.app.handlers import persistent
 from .evaluating import evaluations
 from .explanation import forget_explanations
 from .ground import memory
+from .region_recording import forget_found
 
 
 @persistent
@@ -18,6 +19,7 @@ def _after_load(path):
     forget_explanations()
     evaluations.clear()
     memory.clear()
+    forget_found()
 
 
 HANDLERS = (("undo_post", _after_undo), ("redo_post", _after_undo), ("load_post", _after_load))

@@ -48,3 +48,13 @@ RULE, REJECTED = "rule", "rejected"
 #: On nodes: how many results stand there, how long it took, whether something upstream has changed since, and what is
 #: wrong with it.
 COUNT, SECONDS, STALE, PROBLEM = "count", "seconds", "stale", "problem"
+
+#: On queries: "region" or "stroke". On what is carried over to similar regions: True, as it is no line of the drawing.
+QUERY, CONTENT = "ga_query", "ga_content"
+
+#: On results of a region transfer: how similar the region is, and how well the mapping is supported on average; the
+#: latter also as an attribute of the points of meshes.
+SIMILARITY, CONFIDENCE = "ga_similarity", "ga_confidence"
+
+#: On nodes of region transfers: the object that the query was drawn as, what is carried over, and all that was found.
+QUERY_OBJECT, CONTENTS, MATCHES = "query_object", "contents", "matches"

@@ -1,7 +1,7 @@
 """What GeoAnalogy keeps with each scene of a file."""
 
 import bpy
-from bpy.props import PointerProperty, StringProperty
+from bpy.props import IntProperty, PointerProperty, StringProperty
 
 from . import names
 
@@ -29,6 +29,20 @@ class GEOANALOGY_PG_scene(bpy.types.PropertyGroup):
         type=bpy.types.Object,
         description="What fills the places like the examples; none: the first example itself",
     )
+    drawing: PointerProperty(
+        name="Drawing",
+        type=bpy.types.Collection,
+        description="The strokes, curves and meshes of this collection are the drawing; none: all strokes and curves",
+    )
+    query: PointerProperty(
+        name="Query",
+        type=bpy.types.Object,
+        description="The line round the region, or along the thin shape, that is looked for",
+    )
+    image: PointerProperty(
+        name="Image", type=bpy.types.Image, description="Painted for the query, with alpha; it fills the box round it"
+    )
+    brush: IntProperty(name="Brush", description="Radius in pixels", min=2, max=500, default=20, subtype="PIXEL")
     rectangle_label: StringProperty(
         name="Label", default="example", description="What the rectangles are that are drawn as examples"
     )

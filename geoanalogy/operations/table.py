@@ -8,6 +8,7 @@ from .group_placement import GroupPlacement
 from .operation import Operation
 from .pose_placement import PosePlacement
 from .rectangle_placement import RectanglePlacement
+from .region_transfer import RegionTransfer
 from .scatter_placement import ScatterPlacement
 from .selection import Selection
 
@@ -24,5 +25,6 @@ OPERATIONS: dict[str, type[Operation]] = {
         Extrusion,
         Boolean,
         Selection,
+        RegionTransfer,
     )
 }
