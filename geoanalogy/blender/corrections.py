@@ -16,8 +16,10 @@ from . import names
 from .evaluating import mark_stale
 from .footprints import pose_of
 from .planes import Plane
-from .refresh import layout_at, proposed_by, show, stored_layout
-from .tree_store import engine_node, placed_by, require_operations, works_everywhere, write_operation
+from .refresh import proposed_by
+from .showing import show_again
+from .sites import site_under, sites_before
+from .tree_store import builds, engine_node, is_building, is_placement, placed_by, require_operations, write_operation
 
 #: Distance, in scene units, and angle, in radians, from its place below which a result has not been moved: single
 #: precision at a kilometre from the origin.
@@ -65,12 +67,18 @@ def decide(context: bpy.types.Context, items: Iterable[bpy.types.Object], verdic
     if not by_node:
         raise InputError(f"no result is selected; select objects in the collection {names.COLLECTION!r}")
     missing = sorted(set(by_node) - {node.name for node in tree.nodes})
+    if "" in missing:
+        raise InputError("the masses are merged into one mesh per label; show them singly in step 5 to correct one")
     if missing:
         raise InputError(f"the operation {missing[0]!r} is no longer there; replay, and its results will go")
     changed = []
     for name, group in by_node.items():
         node = tree.nodes[name]
         engine = engine_node(node)
+        if is_building(node):
+            raise InputError(
+                f"object {group[0].name!r} was made of the plan itself by {name!r}, not placed; correct the plan"
+            )
         decisions = engine.operation.decisions
         pins = _pins(context, node, group) if verdict == "accept" else {}
         for key in dict.fromkeys(item[names.KEY] for item in group):
@@ -126,32 +134,34 @@ def forget_all(context: bpy.types.Context, node: bpy.types.Node) -> int:
 
 def _write_decisions(context: bpy.types.Context, node: bpy.types.Node, engine: Node, decisions: Decisions) -> None:
     write_operation(node, replace(engine, operation=replace(engine.operation, decisions=decisions)))
-    show(context.scene, node)
-    mark_stale(node.id_data, node)
+    show_again(context, node)
+    if not builds(node.id_data):
+        mark_stale(node.id_data, node)
 
 
 def _pins(context: bpy.types.Context, node: bpy.types.Node, items: Iterable[bpy.types.Object]) -> dict[str, Pin]:
     """Where those results stand that have been moved, by their keys."""
-    layouts = stored_layout(context.scene, node)
+    sites = sites_before(context, node)
     proposed = {e.key: e for e in proposed_by(node)}
     rests = {one.mesh: one.rest for one in placed_by(node)}
     found = {}
     for item in items:
         e = proposed.get(item[names.KEY])
-        at = None if e is None else layout_at(layouts, e)
+        at = None if e is None else site_under(sites, e)
         if at is None:
             continue
-        ground, layout = at
-        if works_everywhere(node):
-            pose = _pose_of_placed(item, e, rests[e.mesh], ground.plane)
+        if names.MASS in item.users_collection[0]:
+            pose = pose_of(item, at.plane)
+        elif is_placement(node):
+            pose = _pose_of_placed(item, e, rests[e.mesh], at.plane)
         else:
-            pose = pose_of(item, ground.plane)
+            pose = pose_of(item, at.plane)
         if _is_at(pose, e.pose):
             continue
         pose = replace(pose, mirrored=e.pose.mirrored)
         ring = pose.to_scene(e.scale * np.array(e.stretch) * np.array(e.footprint or [(0.0, 0.0)]))
-        parent = layout.scene.parent_of_shape(ring, CONTAINED_SHARE) if e.footprint else None
-        parent = parent or layout.scene.parent_of(pose.position)
+        parent = at.scene.parent_of_shape(ring, CONTAINED_SHARE) if e.footprint else None
+        parent = parent or at.scene.parent_of(pose.position)
         if parent is None:
             raise InputError(f"object {item.name!r} lies outside every polygon; put it into one to keep it there")
         found[e.key] = Pin.of(pose, parent, e.scale)

@@ -4,6 +4,7 @@ Everything is read before the first step and written after the last one, so that
 the scene as it was.
 """
 
+import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
@@ -16,16 +17,25 @@ from ..geometry.scene import Scene
 from ..operations.element import Element
 from ..operations.evaluation import Evaluations
 from ..operations.layout import Layout
-from ..operations.node import Node
+from ..operations.node import Link, Node
 from ..operations.tree import OperationsTree
-from ..progress import Stepper
+from ..progress import Stepper, within
 from . import names
-from .ground import Ground, read_grounds
-from .instances import write_results
+from .ground import Ground, only_in, read_grounds
+from .instances import is_instance, write_results
 from .planes import Plane
 from .proposals import write_proposals
 from .refresh import examples_of, ground_for, in_order
-from .tree_store import engine_tree, ordered_nodes, placed_by, plane_of, sources_of, tree_of, works_everywhere
+from .tree_store import (
+    engine_tree,
+    is_building,
+    ordered_nodes,
+    placed_by,
+    plane_of,
+    sources_of,
+    tree_of,
+    works_everywhere,
+)
 
 
 class TimedEvaluations(Evaluations):
@@ -141,8 +151,9 @@ def read_surroundings(context: bpy.types.Context, items: Iterable[bpy.types.Obje
     depsgraph = context.evaluated_depsgraph_get()
     tree = tree_of(scene)
     without = examples_of(tree) | {item.name for item in items}
-    grounds = read_grounds(scene, depsgraph, without)
+    grounds = restricted(read_grounds(scene, depsgraph, without), tree)
     nodes = ordered_nodes(tree)
+    engine = engine_tree(nodes, evaluations)
     where = {node.name: None if works_everywhere(node) else ground_for(grounds, plane_of(node)) for node in nodes}
     for node in nodes:
         # A node goes where its source is: it builds on what that has placed.
@@ -152,9 +163,30 @@ def read_surroundings(context: bpy.types.Context, items: Iterable[bpy.types.Obje
     found = []
     for ground in grounds:
         own = [node for node in nodes if where[node.name] is None or where[node.name] is ground]
-        engine = engine_tree(nodes, evaluations, working={node.name for node in own})
-        found.append(Surroundings(scene, depsgraph, tree, ground, own, engine))
+        working = {node.name for node in own}
+        there = [replace(node, muted=node.muted or node.id not in working) for node in engine.nodes]
+        found.append(Surroundings(scene, depsgraph, tree, ground, own, OperationsTree(there, evaluations)))
     return found
+
+
+def restricted(grounds: list[Ground], tree: bpy.types.NodeTree | None) -> list[Ground]:
+    """The part of a scene that a tree is applied to.
+
+    Parameters
+    ----------
+    grounds : list of Ground
+    tree : bpy.types.NodeTree or None
+
+    Returns
+    -------
+    list of Ground
+        All of it, unless parcels have been chosen that are still there.
+    """
+    chosen = frozenset(json.loads(tree.get(names.APPLIED_TO, "[]")) if tree else ())
+    if not chosen:
+        return grounds
+    parts = [part for part in (only_in(ground, chosen) for ground in grounds) if part.scene.polygons]
+    return parts or grounds
 
 
 def incoming_steps(around: Surroundings, node: str) -> Stepper[Layout]:
@@ -175,6 +207,30 @@ def incoming_steps(around: Surroundings, node: str) -> Stepper[Layout]:
     return muted.layout_steps(around.ground.scene, node, around.seed)
 
 
+def after_steps(every: Sequence[Surroundings], links: Sequence[Link]) -> Stepper[list[Layout]]:
+    """What flows out of some outputs together on each plane, as a stepper.
+
+    Parameters
+    ----------
+    every : sequence of Surroundings
+    links : sequence of Link
+        None: the bare ground.
+
+    Returns
+    -------
+    generator of (float, str)
+        Returns a list of Layout.
+    """
+    found = []
+    for i, around in enumerate(every):
+        layout = Layout(around.ground.scene)
+        if links:
+            steps = around.engine.layout_steps(around.ground.scene, links, around.seed)
+            layout = yield from within(steps, i / len(every), (i + 1) / len(every))
+        found.append(layout)
+    return found
+
+
 def write_node(node: bpy.types.Node, evaluated: Sequence[tuple[Surroundings, Iterable[Element]]]) -> int:
     """Write what an evaluated node has proposed, and show what has passed.
 
@@ -189,17 +245,26 @@ def write_node(node: bpy.types.Node, evaluated: Sequence[tuple[Surroundings, Ite
     int
         How many results stand there.
     """
-    if not node.mute:
-        # Selections propose other things than elements; they place nothing.
-        places = [(node.name, around.name) for around, _ in evaluated]
-        proposed = (e for place in places for e in evaluations.proposed.get(place, ()) if isinstance(e, Element))
-        node[names.RESULTS] = write_proposals(proposed)
-        node[names.SECONDS] = sum(evaluations.seconds.get(place, 0.0) for place in places)
     for key in (names.STALE, names.PROBLEM):
         node.pop(key, None)
+    places = [(node.name, around.name) for around, _ in evaluated]
+    if not node.mute:
+        node[names.SECONDS] = sum(evaluations.seconds.get(place, 0.0) for place in places)
+    if is_building(node):
+        node[names.COUNT] = 0 if node.mute else sum(_touched(evaluations.proposed.get(place, ())) for place in places)
+        return 0
+    if not node.mute:
+        proposed = (e for place in places for e in evaluations.proposed.get(place, ()))
+        node[names.RESULTS] = write_proposals(proposed)
     standing = [] if node.mute else in_order(node, [(around.plane, elements) for around, elements in evaluated])
-    node[names.COUNT] = write_results(evaluated[0][0].scene, node.name, standing, placed_by(node))
+    shown = write_results(evaluated[0][0].scene, node.name, standing, placed_by(node))
+    node[names.COUNT] = shown + sum(not is_instance(e) for e, _ in standing)
     return node[names.COUNT]
+
+
+def _touched(proposed: Any) -> int:
+    """How many elements an operation has made, changed or divided that places none."""
+    return len(proposed if isinstance(proposed, dict) else proposed[0]) if proposed else 0
 
 
 def mark_stale(tree: bpy.types.NodeTree, node: bpy.types.Node) -> None:

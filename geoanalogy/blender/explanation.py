@@ -16,7 +16,8 @@ from ..placements.model import PlacementModel
 from ..poses.arrangement import arrangement_of
 from ..poses.propagate import PoseModel
 from . import names
-from .refresh import layout_at, proposed_by, stored_layout
+from .refresh import proposed_by
+from .sites import site_under, sites_before
 from .tree_store import engine_node, require_operations
 
 #: Relations that are listed, and the least part of the importance that is; the rest is one line.
@@ -95,11 +96,11 @@ def explain(context: bpy.types.Context, item: bpy.types.Object | None) -> tuple[
     if isinstance(operation, ScatterPlacement):
         model = operation.model.model
     known = isinstance(operation, PosePlacement | ScatterPlacement | RectanglePlacement)
-    at = layout_at(stored_layout(context.scene, node), e) if e is not None and known else None
+    at = site_under(sites_before(context, node), e) if e is not None and known else None
     if at is None:
         raise InputError(f"object {item.name!r} was not placed by single relations; there is nothing to list")
     find = _placement_reasons if isinstance(operation, RectanglePlacement) else _reasons
-    reasons = _explained[_name(context.scene, item)] = find(model, e, at[1].scene)
+    reasons = _explained[_name(context.scene, item)] = find(model, e, at.scene)
     return reasons
 
 

@@ -192,6 +192,33 @@ def read_grounds(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, without
     return [_ground(layer, scene, depsgraph) for layer in layers]
 
 
+def only_in(ground: Ground, chosen: frozenset[str]) -> Ground:
+    """A ground on which only some polygons are, what lies in them, and what they lie in.
+
+    Parameters
+    ----------
+    ground : Ground
+    chosen : frozenset of str
+        Names of objects.
+
+    Returns
+    -------
+    Ground
+        The same one where all is left.
+    """
+    kept: set[str] = set()
+    for polygon in ground.scene.polygons:
+        above = [polygon]
+        while (parent := ground.scene.parent(str(above[-1].id))) is not None:
+            above.append(parent)
+        if any(not chosen.isdisjoint((p.id, str(p.id).rpartition("/")[0])) for p in above):
+            kept.update(str(p.id) for p in above)
+    if len(kept) == len(ground.scene.polygons):
+        return ground
+    polygons = [p for p in ground.scene.polygons if p.id in kept]
+    return Ground(ground.plane, Scene(polygons, memory=memory), ground.alternatives)
+
+
 def _lies_on(flat: _Drawn, layer: _Layer) -> bool:
     """Whether what is drawn flat lies on a plane: nearly where it lies over what is there, else exactly."""
     if layer.plane.is_coplanar(flat.plane, min(layer.size, flat.size), SAME_PLANE_ASIDE):

@@ -10,6 +10,7 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
+from ..geometry.surface import GROUND
 from ..operations.element import Element
 from . import names
 from .footprints import frame_of
@@ -18,6 +19,9 @@ from .planes import Plane
 from .tree_store import Placed
 
 Array = NDArray[np.float64]
+
+#: Distance of an example from a result, in sizes of the result, below which they are one.
+SAME_PLACE = 1e-3
 
 
 def ensure_results_collection(scene: bpy.types.Scene) -> bpy.types.Collection:
@@ -108,7 +112,12 @@ def write_results(
     by_mesh = {one.mesh: one for one in placed if one.item is not None}
     there = {one.mesh for one in by_mesh.values() if scene.objects.get(one.item.name) == one.item}
     children = _children_of([one.item for one in by_mesh.values()])
-    shown = [(e, p) for e, p in standing if e.mesh in by_mesh and not (e.example and e.mesh in there)]
+    examples = [one for one in by_mesh.values() if one.target is not None and one.mesh in there]
+    shown = [
+        (e, p)
+        for e, p in standing
+        if is_instance(e) and e.mesh in by_mesh and not (e.example and e.mesh in there) and not _stands(e, p, examples)
+    ]
     left = _leave(holder, [e.key for e, _ in shown]) if unmoved else 0
     if not left:
         delete_results(holder)
@@ -128,6 +137,33 @@ def write_results(
     for item in selected:
         item.select_set(True)
     return len(shown)
+
+
+def is_instance(element: Element) -> bool:
+    """Whether an element is shown by a library object: it has not become a solid, or a part of one.
+
+    Parameters
+    ----------
+    element : Element
+
+    Returns
+    -------
+    bool
+    """
+    return bool(element.mesh) and element.solid is None and not element.absorbed_by
+
+
+def _stands(element: Element, plane: Plane, examples: Sequence[Placed]) -> bool:
+    """Whether an example stands where an element would: those on surfaces are found there again like all others."""
+    if element.surface == GROUND or not examples:
+        return False
+    where = frame_of(element.pose, plane)
+    size = element.reach
+    return any(
+        np.abs((where @ one.rest)[:3, 3] - np.array(one.item.matrix_world.translation)).max() < SAME_PLACE * size
+        for one in examples
+        if names.DRAWN not in one.item
+    )
 
 
 def _leave(holder: bpy.types.Collection, keys: Sequence[str]) -> int:

@@ -31,7 +31,8 @@ from . import names
 from .evaluating import Surroundings, incoming_steps
 from .footprints import footprint_of, pose_of
 from .placement_lessons import relearned_placement_steps
-from .tree_store import placed_by, works_everywhere
+from .sites import Site, site_of, sites_in
+from .tree_store import builds, is_building, is_placement, placed_by
 
 Array = NDArray[np.float64]
 
@@ -39,12 +40,12 @@ Array = NDArray[np.float64]
 UNMOVED = 1e-4
 
 
-def scene_without(layout: Layout, items: Sequence[bpy.types.Object]) -> Scene:
+def scene_without(site: Site, items: Sequence[bpy.types.Object]) -> Scene:
     """What comes in to an operation, without the objects that it learns from: another operation may have placed them.
 
     Parameters
     ----------
-    layout : Layout
+    site : Site
     items : sequence of bpy.types.Object
 
     Returns
@@ -53,17 +54,16 @@ def scene_without(layout: Layout, items: Sequence[bpy.types.Object]) -> Scene:
     """
     own = {item.name for item in items if names.KEY not in item}
     made = {(item[names.NODE], item[names.KEY]) for item in items if names.KEY in item}
-    others = tuple(e for e in layout.elements if not (e.example and e.mesh in own) and (e.node, e.key) not in made)
-    return replace(layout, elements=others).scene
+    return site.without(e for e in site.layout.elements if (e.example and e.mesh in own) or (e.node, e.key) in made)
 
 
-def learn(item: bpy.types.Object, around: Surroundings, scene: Scene, options: PoseOptions) -> PoseModel:
+def learn(item: bpy.types.Object, site: Site, scene: Scene, options: PoseOptions) -> PoseModel:
     """Learn from the pose of an object.
 
     Parameters
     ----------
     item : bpy.types.Object
-    around : Surroundings
+    site : Site
     scene : Scene
         What else stands there.
     options : PoseOptions
@@ -77,21 +77,21 @@ def learn(item: bpy.types.Object, around: Surroundings, scene: Scene, options: P
     InputError
         Naming the object.
     """
-    pose, ring = pose_of(item, around.plane), footprint_of(item, around.plane, around.depsgraph)
+    pose, ring = pose_of(item, site.plane), footprint_of(item, site.plane, site.depsgraph)
     try:
-        return learn_pose(scene, pose, ring, _with_alternatives(options, around))
+        return learn_pose(scene, pose, ring, _with_alternatives(options, site))
     except InputError as error:
         raise InputError(f"object {item.name!r}: {error}") from None
 
 
-def _with_alternatives(options: PoseOptions, around: Surroundings) -> PoseOptions:
+def _with_alternatives(options: PoseOptions, site: Site) -> PoseOptions:
     """Options that know which outlines stand for others when results are validated."""
-    return replace(options, alternative_geometry={**options.alternative_geometry, **around.ground.alternatives})
+    return replace(options, alternative_geometry={**options.alternative_geometry, **site.ground.alternatives})
 
 
 def learn_row(
     items: Sequence[bpy.types.Object],
-    around: Surroundings,
+    site: Site,
     scene: Scene,
     spacing: float,
     options: PoseOptions,
@@ -103,7 +103,7 @@ def learn_row(
     ----------
     items : sequence of bpy.types.Object
         The first object, and the empty at the end; without it, the array runs all round.
-    around : Surroundings
+    site : Site
     scene : Scene
     spacing : float
         Scene units.
@@ -120,24 +120,22 @@ def learn_row(
         Naming the object.
     """
     start, *end = items
-    ring = footprint_of(start, around.plane, around.depsgraph)
-    last = pose_of(end[0], around.plane) if end else None
+    ring = footprint_of(start, site.plane, site.depsgraph)
+    last = pose_of(end[0], site.plane) if end else None
     try:
-        drawn = _with_alternatives(options, around)
-        return learn_array(scene, pose_of(start, around.plane), last, spacing, ring, drawn, array_options)
+        drawn = _with_alternatives(options, site)
+        return learn_array(scene, pose_of(start, site.plane), last, spacing, ring, drawn, array_options)
     except InputError as error:
         raise InputError(f"object {start.name!r}: {error}") from None
 
 
-def learn_group(
-    items: Sequence[bpy.types.Object], around: Surroundings, scene: Scene, options: TransferOptions
-) -> GroupTransfer:
+def learn_group(items: Sequence[bpy.types.Object], site: Site, scene: Scene, options: TransferOptions) -> GroupTransfer:
     """Learn a group from objects in one polygon.
 
     Parameters
     ----------
     items : sequence of bpy.types.Object
-    around : Surroundings
+    site : Site
     scene : Scene
     options : TransferOptions
 
@@ -152,7 +150,7 @@ def learn_group(
     """
     objects, parents = [], []
     for item in items:
-        pose, ring = pose_of(item, around.plane), footprint_of(item, around.plane, around.depsgraph)
+        pose, ring = pose_of(item, site.plane), footprint_of(item, site.plane, site.depsgraph)
         objects.append(GroupObject(pose, ring))
         parents.append(scene.parent_of_shape(pose.to_scene(ring), CONTAINED_SHARE) or scene.parent_of(pose.position))
         if parents[-1] is None:
@@ -184,8 +182,10 @@ def relearned_steps(every: Sequence[Surroundings], node: bpy.types.Node) -> Step
     InputError
         Where an example stands where it cannot be learned from, naming operation and object.
     """
-    if works_everywhere(node):
+    if is_placement(node):
         return (yield from relearned_placement_steps(every, node))
+    if is_building(node):
+        return every[0].engine.node(node.name).operation
     around = every[0]
     operation = around.engine.node(node.name).operation
     items = [one.item for one in placed_by(node)]
@@ -193,14 +193,19 @@ def relearned_steps(every: Sequence[Surroundings], node: bpy.types.Node) -> Step
     if node.mute or not items or not here or (isinstance(operation, GroupPlacement) and not operation.own):
         return operation
     poses, parent = _learned_from(operation)
-    if _all_stand(items, around, poses) and holds(around.ground.scene, parent):
-        return operation
+    if not builds(node.id_data):
+        bare = Site(around.ground, Layout(around.ground.scene), None, around.depsgraph)
+        if _all_stand(items, bare, poses) and holds(bare.scene, parent):
+            return operation
     layout = yield from incoming_steps(around, node.name)
+    site = site_of(sites_in(around.ground, layout, around.depsgraph), [around], items[0])
+    if site.surface is None and parent.id not in layout.polygon_ids and builds(node.id_data):
+        return operation  # the surface has gone elsewhere with its solid; what was learned stays
     # The parent may itself be something that an operation has placed.
-    if _all_stand(items, around, poses) and holds(layout.scene, parent):
+    if _all_stand(items, site, poses) and holds(site.scene, parent):
         return operation
     try:
-        return _again(operation, items, around, scene_without(layout, items))
+        return _again(operation, items, site, scene_without(site, items))
     except InputError as error:
         raise InputError(f"the operation {node.name!r}: {error}") from None
 
@@ -221,39 +226,37 @@ def _learned_from(operation: Operation) -> tuple[list[tuple[Pose, Array | None]]
     return poses, models[0].parent
 
 
-def _again(operation: Operation, items: Sequence[bpy.types.Object], around: Surroundings, scene: Scene) -> Operation:
+def _again(operation: Operation, items: Sequence[bpy.types.Object], site: Site, scene: Scene) -> Operation:
     """An operation with the same options, learned from its examples as they stand now."""
     if isinstance(operation, PosePlacement):
-        return replace(operation, model=learn(items[0], around, scene, operation.model.options))
+        return replace(operation, model=learn(items[0], site, scene, operation.model.options))
     if isinstance(operation, ScatterPlacement):
-        model = learn(items[0], around, scene, operation.model.model.options)
+        model = learn(items[0], site, scene, operation.model.model.options)
         return replace(operation, model=ScatterModel(model, operation.model.options))
     if isinstance(operation, ChoicePlacement):
         pairs = zip(items, operation.models, strict=True)
-        return replace(operation, models=tuple(learn(item, around, scene, model.options) for item, model in pairs))
+        return replace(operation, models=tuple(learn(item, site, scene, model.options) for item, model in pairs))
     if isinstance(operation, GroupPlacement):
-        return replace(operation, group=learn_group(items, around, scene, operation.group.options))
+        return replace(operation, group=learn_group(items, site, scene, operation.group.options))
     assert isinstance(operation, ArrayPlacement)
     model = operation.model
-    row = learn_row(items, around, scene, model.spacing, model.start.options, model.options)
+    row = learn_row(items, site, scene, model.spacing, model.start.options, model.options)
     return replace(operation, model=row)
 
 
-def _all_stand(
-    items: Sequence[bpy.types.Object], around: Surroundings, poses: Sequence[tuple[Pose, Array | None]]
-) -> bool:
+def _all_stand(items: Sequence[bpy.types.Object], site: Site, poses: Sequence[tuple[Pose, Array | None]]) -> bool:
     """Whether objects stand where they did, with the same footprints."""
     # The end of an array that runs all round has no pose of its own.
-    return all(_stands(item, around, pose, ring) for item, (pose, ring) in zip(items, poses, strict=False))
+    return all(_stands(item, site, pose, ring) for item, (pose, ring) in zip(items, poses, strict=False))
 
 
-def _stands(item: bpy.types.Object, around: Surroundings, before: Pose, footprint: Array | None) -> bool:
-    pose = pose_of(item, around.plane)
+def _stands(item: bpy.types.Object, site: Site, before: Pose, footprint: Array | None) -> bool:
+    pose = pose_of(item, site.plane)
     turned = abs(np.angle(np.exp(1j * (pose.angle - before.angle))))
     moved = np.hypot(*np.subtract(pose.position, before.position))
     if footprint is None:
         return bool(turned <= UNMOVED and moved <= UNMOVED)
-    ring = footprint_ring(footprint_of(item, around.plane, around.depsgraph))
+    ring = footprint_ring(footprint_of(item, site.plane, site.depsgraph))
     size = float(np.ptp(footprint, axis=0).max())
     same = ring.shape == footprint.shape and np.abs(ring - footprint).max() <= UNMOVED * size
     return bool(turned <= UNMOVED and moved <= UNMOVED * size and same)

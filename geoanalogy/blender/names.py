@@ -33,6 +33,15 @@ DRAWN = "ga_drawn"
 #: On results: the node that made them, and their key among its results.
 NODE, KEY = "ga_node", "ga_key"
 
+#: On collections inside that of all results: the label of the solids and outlines that they hold.
+MASS = "ga_mass"
+
+#: On meshes of solids: which surface each face belongs to (an attribute), and the ids of these surfaces.
+SURFACE, SURFACES = "ga_surface", "ga_surfaces"
+
+#: On materials of faces: these faces are surfaces of their own, whatever the object is.
+CHOSEN = "ga_chosen"
+
 #: The collection that holds all results, with a collection per operation.
 COLLECTION = "GeoAnalogy"
 
@@ -44,6 +53,13 @@ OPERATION, RESULTS, EXAMPLES, FRAME = "operation", "results", "examples", "frame
 
 #: On nodes of placements: the learned rule in words, and the rejected results that it was learned from.
 RULE, REJECTED = "rule", "rejected"
+
+#: On trees: the outputs that the next operation builds on, and the names of the objects that the tree is applied to
+#: (none: all).
+BUILD_ON, APPLIED_TO = "build_on", "applied_to"
+
+#: On nodes: where their input came from when that was last looked at.
+SOURCES = "sources"
 
 #: On nodes: how many results stand there, how long it took, whether something upstream has changed since, and what is
 #: wrong with it.
@@ -58,3 +74,12 @@ SIMILARITY, CONFIDENCE = "ga_similarity", "ga_confidence"
 
 #: On nodes of region transfers: the object that the query was drawn as, what is carried over, and all that was found.
 QUERY_OBJECT, CONTENTS, MATCHES = "query_object", "contents", "matches"
+
+#: On nodes of region transfers: the names of those results, with commas between them, that little supports.
+UNCERTAIN = "uncertain"
+
+#: Name of what has no label, among collections and objects.
+UNLABELLED = "unlabelled"
+
+#: On scenes: what is added to the coordinates to have those of the file of parcels, and the name of the manifest.
+OFFSET, MANIFEST = "ga_offset", "ga_manifest"

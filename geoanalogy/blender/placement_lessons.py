@@ -9,6 +9,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..geometry.rectangle import Rectangle
+from ..geometry.scene import Scene
 from ..operations.layout import Layout
 from ..operations.operation import Operation
 from ..operations.rectangle_placement import RectanglePlacement
@@ -16,10 +17,11 @@ from ..placements.examples import Example
 from ..placements.options import PlacementOptions
 from ..progress import Stepper, within
 from . import names
-from .evaluating import Surroundings, incoming_steps, surroundings_of
+from .evaluating import Surroundings, incoming_steps
 from .planes import Plane
 from .rectangles import middle_of, rectangle_of, target_of
-from .tree_store import placed_by
+from .sites import Site, site_of, sites_of
+from .tree_store import builds, placed_by
 
 #: Difference of rectangles, in sizes of the rectangle, below which an example has not been changed.
 UNMOVED = 1e-4
@@ -32,15 +34,15 @@ class Shown:
     Attributes
     ----------
     item : bpy.types.Object
-    around : Surroundings
-        On the plane that it lies on.
+    site : Site
+        Where it lies.
     rectangle : Rectangle
         There.
     target : float
     """
 
     item: bpy.types.Object
-    around: Surroundings
+    site: Site
     rectangle: Rectangle
     target: float
 
@@ -60,11 +62,12 @@ class Rejected:
     rectangle: Rectangle
 
 
-def shown(every: Sequence[Surroundings], item: bpy.types.Object) -> Shown:
+def shown(sites: Sequence[Site], every: Sequence[Surroundings], item: bpy.types.Object) -> Shown:
     """An object as an example.
 
     Parameters
     ----------
+    sites : sequence of Site
     every : sequence of Surroundings
     item : bpy.types.Object
 
@@ -78,8 +81,8 @@ def shown(every: Sequence[Surroundings], item: bpy.types.Object) -> Shown:
         Where it has no extent on the face that it lies on, or a preference that is no number from 0 to 1.
     """
     depsgraph = every[0].depsgraph
-    around = surroundings_of(list(every), item, middle_of(item, depsgraph))
-    return Shown(item, around, rectangle_of(item, around.plane, depsgraph), target_of(item))
+    site = site_of(sites, every, item, middle_of(item, depsgraph))
+    return Shown(item, site, rectangle_of(item, site.plane, depsgraph), target_of(item))
 
 
 def rejected_by(node: bpy.types.Node) -> list[Rejected]:
@@ -142,8 +145,7 @@ def incoming_everywhere_steps(every: Sequence[Surroundings], node: str) -> Stepp
 
 
 def learn_rectangles(
-    every: Sequence[Surroundings],
-    layouts: Sequence[Layout],
+    sites: Sequence[Site],
     examples: Sequence[Shown],
     rejected: Sequence[Rejected],
     options: PlacementOptions,
@@ -153,9 +155,8 @@ def learn_rectangles(
 
     Parameters
     ----------
-    every : sequence of Surroundings
-    layouts : sequence of Layout
-        What comes in on each plane.
+    sites : sequence of Site
+        With what comes in there.
     examples : sequence of Shown
     rejected : sequence of Rejected
         Those whose plane is no longer there are left out.
@@ -173,14 +174,16 @@ def learn_rectangles(
         Naming the object where a single one is to blame.
     """
     own = {one.item.name for one in examples}
-    scenes = [
-        replace(layout, elements=tuple(e for e in layout.elements if not (e.example and e.mesh in own))).scene
-        for layout in layouts
-    ]
-    at = {id(around): scene for around, scene in zip(every, scenes, strict=True)}
+    scenes: dict[int, Scene] = {}
+
+    def scene_at(site: Site) -> Scene:
+        if id(site) not in scenes:
+            scenes[id(site)] = site.without(e for e in site.layout.elements if e.example and e.mesh in own)
+        return scenes[id(site)]
+
     given = []
     for one in examples:
-        scene = at[id(one.around)]
+        scene = scene_at(one.site)
         if not any(_meets(p.bounds, one.rectangle) for p in scene.polygons):
             raise InputError(f"object {one.item.name!r} lies on no labelled face; put it on one, or label the face")
         given.append(Example(scene, one.rectangle, one.target))
@@ -188,12 +191,19 @@ def learn_rectangles(
     bare = any(names.DRAWN in one.item and one.item.name == settings["mesh"] for one in examples)
     fill = [names.DRAWN in one.item and not bare for one in examples]
     for one in rejected:
-        size = max(one.rectangle.width, one.rectangle.height)
-        around = next((a for a in every if a.plane.is_coplanar(one.plane, size)), None)
-        if around is not None:
-            given.append(Example(at[id(around)], one.rectangle, 0.0))
+        site = next((site for site in sites if _is_same(site, one)), None)
+        if site is not None:
+            given.append(Example(scene_at(site), one.rectangle, 0.0))
             fill.append(False)
     return RectanglePlacement.learned(given, options, fill=fill, **settings)
+
+
+def _is_same(site: Site, one: Rejected) -> bool:
+    """Whether a rejected result lay on that site."""
+    size = max(one.rectangle.width, one.rectangle.height)
+    if site.surface is None:
+        return site.plane.is_coplanar(one.plane, size)
+    return bool(np.abs(site.plane.matrix - one.plane.matrix).max() <= UNMOVED * size)
 
 
 def _meets(bounds: np.ndarray, rectangle: Rectangle) -> bool:
@@ -240,25 +250,57 @@ def relearned_placement_steps(every: Sequence[Surroundings], node: bpy.types.Nod
     items = examples_in(node, every[0].scene)
     if node.mute or not items:
         return operation
-    examples = [shown(every, item) for item in items]
     rejected = rejected_by(node)
-    same = _same(operation, examples, rejected)
-    if same and all(any(g.is_in(around.ground.scene) for around in every) for g in operation.grounds):
-        return operation
+    if not builds(node.id_data):
+        bare = sites_of(every, [Layout(around.ground.scene) for around in every])
+        if _is_unchanged(operation, bare, [shown(bare, every, item) for item in items], rejected):
+            return operation
     layouts = yield from incoming_everywhere_steps(every, node.name)
+    sites = sites_of(every, layouts)
+    if _is_left_behind(operation, sites, every, items):
+        return operation
+    examples = [shown(sites, every, item) for item in items]
     # An example may lie on something that an operation has placed.
-    if same and all(any(g.is_in(layout.scene) for layout in layouts) for g in operation.grounds):
+    if _is_unchanged(operation, sites, examples, rejected):
         return operation
     try:
-        return again(operation, every, layouts, examples, rejected)
+        return again(operation, sites, examples, rejected)
     except InputError as error:
         raise InputError(f"the operation {node.name!r}: {error}") from None
 
 
+def _is_left_behind(
+    operation: RectanglePlacement,
+    sites: Sequence[Site],
+    every: Sequence[Surroundings],
+    items: Sequence[bpy.types.Object],
+) -> bool:
+    """Whether surfaces that examples were drawn on have gone elsewhere with their solids: what was learned stays."""
+    there = {str(p.id) for site in sites if site.surface is None for p in site.scene.polygons}
+    on_surfaces = sum(ground.id not in there for ground in operation.grounds[: len(items)])
+    if not on_surfaces:
+        return False
+    depsgraph = every[0].depsgraph
+    found = sum(site_of(sites, every, item, middle_of(item, depsgraph)).surface is not None for item in items)
+    return found < on_surfaces
+
+
+def _is_unchanged(
+    operation: RectanglePlacement, sites: Sequence[Site], examples: Sequence[Shown], rejected: Sequence[Rejected]
+) -> bool:
+    """Whether an operation was learned from just these examples, in faces that are still the same."""
+    if not _same(operation, examples, rejected):
+        return False
+    here = {id(one.site): one.site for one in examples}.values()
+    scenes = [site.scene for site in [*here, *(site for site in sites if site.surface is None)]]
+    # Surfaces of rejected results are not among these.
+    drawn = operation.grounds if not any(site.surface for site in here) else operation.grounds[: len(examples)]
+    return all(any(ground.is_in(scene) for scene in scenes) for ground in drawn)
+
+
 def again(
     operation: RectanglePlacement,
-    every: Sequence[Surroundings],
-    layouts: Sequence[Layout],
+    sites: Sequence[Site],
     examples: Sequence[Shown],
     rejected: Sequence[Rejected],
 ) -> RectanglePlacement:
@@ -267,9 +309,8 @@ def again(
     Parameters
     ----------
     operation : RectanglePlacement
-    every : sequence of Surroundings
-    layouts : sequence of Layout
-        What comes in on each plane.
+    sites : sequence of Site
+        With what comes in there.
     examples : sequence of Shown
     rejected : sequence of Rejected
 
@@ -283,7 +324,7 @@ def again(
         Where nothing can be learned.
     """
     settings = {"mesh": operation.mesh, "label": operation.label, "size": operation.size}
-    made = learn_rectangles(every, layouts, examples, rejected, operation.model.options, settings)
+    made = learn_rectangles(sites, examples, rejected, operation.model.options, settings)
     return replace(operation, model=made.model, grounds=made.grounds, fill=made.fill)
 
 

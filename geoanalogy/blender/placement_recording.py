@@ -12,14 +12,22 @@ import numpy as np
 from ..errors import InputError
 from ..operations.decisions import Decisions
 from ..operations.layout import Layout
-from ..operations.node import Link, Node
+from ..operations.node import Node
 from ..operations.rectangle_placement import outline_of, placement_key, siblings
 from ..placements.arrays import Fit
 from ..placements.options import PlacementOptions
 from ..progress import Stepper, within
 from . import names
 from .corrections import decide, forget_all
-from .evaluating import Surroundings, evaluations, mark_stale, read_surroundings, surroundings_of, write_node
+from .evaluating import (
+    Surroundings,
+    after_steps,
+    evaluations,
+    mark_stale,
+    read_surroundings,
+    surroundings_of,
+    write_node,
+)
 from .ground import label_of
 from .placement_lessons import (
     Rejected,
@@ -35,22 +43,25 @@ from .placement_lessons import (
 from .planes import Plane
 from .recording import require_object
 from .rectangles import middle_of, rectangle_of, require_stretchable, rest_on, target_of
-from .refresh import layout_at, proposed_by, stored_layout
-from .tree_editing import free_id, leaf
+from .refresh import proposed_by
+from .sites import site_under, sites_before, sites_of
+from .tree_editing import chosen_outputs, free_id
 from .tree_store import (
     Placed,
     add_node,
+    builds,
     engine_node,
     ensure_tree,
+    is_placement,
     operation_nodes,
     ordered_nodes,
     placed_by,
     require_operations,
     tree_of,
-    works_everywhere,
     write_operation,
     write_placed,
 )
+from .whole import whole_steps, write_whole
 
 #: Upward part of a unit normal from which a face counts as level rather than as a wall: 45 degrees.
 STEEP = 0.7071
@@ -111,23 +122,24 @@ def placement_steps(
     element = _element(context, items, element, known)
     label = _label(context, items, element)
     every = read_surroundings(context, [*items, element])
-    examples = [shown(every, item) for item in items]
-    placed = _placed(every, examples, element, "scale" in fit)
     if known is not None:
         before = engine_node(known)
         layouts = yield from within(incoming_everywhere_steps(every, known.name), 0.0, 0.3)
         rejected, decisions, links = rejected_by(known), before.operation.decisions, before.inputs
     else:
-        source = leaf(ordered_nodes(tree), tree.nodes.active if tree else None)
-        layouts = yield from within(_after_steps(every, source), 0.0, 0.3)
+        links = chosen_outputs(tree, ordered_nodes(tree))
+        layouts = yield from within(after_steps(every, links), 0.0, 0.3)
         rejected, decisions = [], Decisions()
-        links = () if source is None else (Link(source.name),)
+    sites = sites_of(every, layouts)
+    examples = [shown(sites, every, item) for item in items]
+    placed = _placed(every, examples, element, "scale" in fit)
     settings = {"mesh": element.name, "label": label, "size": placed[1], "fit": fit, "gap": gap, "threshold": threshold}
-    operation = learn_rectangles(every, layouts, examples, rejected, options or PlacementOptions(), settings)
+    operation = learn_rectangles(sites, examples, rejected, options or PlacementOptions(), settings)
     most = {of or operation.model.label: count for of, count in (max_per or {}).items()}
     operation = replace(operation, max_per=most, decisions=decisions)
     node = Node(free_id(tree, name or label) if known is None else known.name, operation, links)
-    return (yield from _write_steps(context, every, layouts, node, known, placed[0], examples[0].around, rejected))
+    home = examples[0].site.ground.plane
+    return (yield from _write_steps(context, every, layouts, node, known, placed[0], home, rejected))
 
 
 def rejected_steps(context: bpy.types.Context, items: Iterable[bpy.types.Object]) -> Stepper[int]:
@@ -154,24 +166,24 @@ def rejected_steps(context: bpy.types.Context, items: Iterable[bpy.types.Object]
     others = []
     for item in items:
         node = tree.nodes.get(item[names.NODE])
-        if node is not None and works_everywhere(node):
+        if node is not None and is_placement(node):
             by_node.setdefault(node.name, []).append(item[names.KEY])
         else:
             others.append(item)
     count = 0
     for name, keys in by_node.items():
         node = tree.nodes[name]
+        sites = sites_before(context, node)
         proposed = [e for e in proposed_by(node) if not e.example]
-        layouts = stored_layout(context.scene, node)
         decisions, more = engine_node(node).operation.decisions, []
         for key in dict.fromkeys(placement_key(key) for key in keys):
             same = siblings(key, [e.key for e in proposed])
             filling = [e for e in proposed if e.key in same]
-            at = layout_at(layouts, filling[0]) if filling else None
+            at = site_under(sites, filling[0]) if filling else None
             for other in same:
                 decisions = decisions.reject(other)
             if at is not None:
-                more.append(Rejected(at[0].plane, outline_of(filling)))
+                more.append(Rejected(at.plane, outline_of(filling)))
             count += 1
         yield from _again_steps(context, node, [*rejected_by(node), *more], decisions)
     return count + (decide(context, others, "reject") if others or not count else 0)
@@ -190,7 +202,7 @@ def forgotten_steps(context: bpy.types.Context, node: bpy.types.Node) -> Stepper
     generator of (float, str)
         Returns how many there were.
     """
-    if not works_everywhere(node):
+    if not is_placement(node):
         return forget_all(context, node)
     decisions = engine_node(node).operation.decisions
     count = len({*decisions.accepted, *decisions.rejected, *decisions.pinned})
@@ -204,10 +216,11 @@ def _again_steps(
     """Learn a placement again from its examples and other rejected results."""
     every = read_surroundings(context)
     before = engine_node(node)
-    examples = [shown(every, item) for item in examples_in(node, context.scene)]
     layouts = yield from within(incoming_everywhere_steps(every, node.name), 0.0, 0.3)
+    sites = sites_of(every, layouts)
+    examples = [shown(sites, every, item) for item in examples_in(node, context.scene)]
     # Without its examples, as in a file that the tree was appended to, it stays as it was learned.
-    learned = again(before.operation, every, layouts, examples, rejected) if examples else before.operation
+    learned = again(before.operation, sites, examples, rejected) if examples else before.operation
     operation = replace(learned, decisions=decisions)
     wanted = Node(node.name, operation, before.inputs, before.muted)
     return (yield from _write_steps(context, every, layouts, wanted, node, placed_by(node), None, rejected))
@@ -220,44 +233,39 @@ def _write_steps(
     node: Node,
     known: bpy.types.Node | None,
     placed: Sequence[Placed],
-    home: Surroundings | None,
+    home: Plane | None,
     rejected: Sequence[Rejected],
 ) -> Stepper[bpy.types.Node]:
     """Evaluate a placement on every plane, then write it and its results."""
-    evaluated = []
-    for i, (around, layout) in enumerate(zip(every, layouts, strict=True)):
-        start, end = (0.3 + 0.7 * k / len(every) for k in (i, i + 1))
-        after = yield from within(evaluations.steps(node, layout, around.seed), start, end)
-        evaluated.append((around, after[0].elements))
+    whole = builds(tree_of(context.scene))
+    evaluated, after = [], []
+    if whole:
+        after = yield from within(whole_steps(every, [node]), 0.3, 1.0)
+    else:
+        for i, (around, layout) in enumerate(zip(every, layouts, strict=True)):
+            start, end = (0.3 + 0.7 * k / len(every) for k in (i, i + 1))
+            (out,) = yield from within(evaluations.steps(node, layout, around.seed), start, end)
+            evaluated.append((around, out.elements))
     tree = ensure_tree(context.scene)
     if known is None:
-        known = add_node(tree, node, placed, home.plane)
+        known = add_node(tree, node, placed, home or Plane())
     else:
         write_operation(known, node)
         if home is not None:
-            write_placed(known, placed, home.plane)
+            write_placed(known, placed, home)
         tree.nodes.active = known
     write_rejected(known, rejected)
-    write_node(known, evaluated)
-    mark_stale(tree, known)
+    if whole:
+        write_whole(context.scene, tree, every, after)
+    else:
+        write_node(known, evaluated)
+        mark_stale(tree, known)
     return known
-
-
-def _after_steps(every: Sequence[Surroundings], source: bpy.types.Node | None) -> Stepper[list[Layout]]:
-    """What flows out of a node on each plane."""
-    found = []
-    for i, around in enumerate(every):
-        layout = Layout(around.ground.scene)
-        if source is not None:
-            steps = around.engine.layout_steps(around.ground.scene, source.name, around.seed)
-            layout = yield from within(steps, i / len(every), (i + 1) / len(every))
-        found.append(layout)
-    return found
 
 
 def _known(tree: bpy.types.NodeTree | None, items: Sequence[bpy.types.Object]) -> bpy.types.Node | None:
     """The placement that was learned from most of these examples before."""
-    nodes = [node for node in operation_nodes(tree) if works_everywhere(node)]
+    nodes = [node for node in operation_nodes(tree) if is_placement(node)]
     shared = [sum(one.item in items for one in placed_by(n) if one.target is not None) for n in nodes]
     return nodes[int(np.argmax(shared))] if any(shared) else None
 
@@ -295,13 +303,13 @@ def _placed(
     found = []
     own = next((one for one in examples if one.item == element), None)
     if own is None:
-        plane = _plane_behind(every, examples[0].around.plane, element)
+        plane = _plane_behind(every, examples[0].site.plane, element)
         rectangle = rectangle_of(element, plane, every[0].depsgraph)
         found.append(Placed(element.name, element, rest_on(element, rectangle, plane)))
     else:
         rectangle = own.rectangle
     for one in examples:
-        rest = rest_on(one.item, one.rectangle, one.around.plane)
+        rest = rest_on(one.item, one.rectangle, one.site.plane)
         found.append(Placed(one.item.name, one.item, rest, one.target))
     if stretched:
         require_stretchable(element, next(one.rest for one in found if one.item == element))

@@ -4,11 +4,16 @@ import json
 from collections.abc import Iterable
 from functools import lru_cache
 
+from ..geometry.frame import SPACE, Frame
+from ..geometry.surface import GROUND
 from ..operations.element import Element
 from ..poses.pose import Pose
 
 #: Stretch and novelty of most elements; they are not written.
 PLAIN = ((1.0, 1.0), 0.0)
+
+#: Origin and axes of the ground.
+LEVEL = (SPACE.origin, SPACE.x, SPACE.y)
 
 
 def write_proposals(elements: Iterable[Element]) -> str:
@@ -25,7 +30,8 @@ def write_proposals(elements: Iterable[Element]) -> str:
     kinds: dict[tuple, int] = {}
     rows = []
     for e in elements:
-        kind = kinds.setdefault((e.label, e.mesh, e.footprint, e.surface), len(kinds))
+        where = () if e.surface == GROUND else (e.owner, e.frame.origin, e.frame.x, e.frame.y)
+        kind = kinds.setdefault((e.label, e.mesh, e.footprint, e.surface, *where), len(kinds))
         pose = [*e.pose.position, e.pose.angle, e.pose.mirrored]
         row = [kind, e.parent, e.key, pose, e.scale, e.importance, e.example]
         rows.append(row if (e.stretch, e.novelty) == PLAIN else [*row, e.stretch, e.novelty])
@@ -52,15 +58,31 @@ def read_proposals(text: str, node: str) -> tuple[Element, ...]:
         return ()
     plain = json.loads(text)
     kinds = [
-        (label, mesh, None if ring is None else tuple((x, y) for x, y in ring), surface)
-        for label, mesh, ring, surface in plain["kinds"]
+        (label, mesh, None if ring is None else tuple((x, y) for x, y in ring), surface, *(where or ("", *LEVEL)))
+        for label, mesh, ring, surface, *where in plain["kinds"]
     ]
     found = []
     for kind, parent, key, (x, y, angle, mirrored), scale, importance, example, *more in plain["elements"]:
-        label, mesh, ring, surface = kinds[kind]
+        label, mesh, ring, surface, owner, origin, x_axis, y_axis = kinds[kind]
         pose = Pose((x, y), angle, mirrored)
         (u, v), novelty = more or PLAIN
         found.append(
-            Element(label, mesh, parent, pose, ring, node, key, surface, scale, importance, example, (u, v), novelty)
+            Element(
+                label,
+                mesh,
+                parent,
+                pose,
+                ring,
+                node,
+                key,
+                surface,
+                scale,
+                importance,
+                example,
+                (u, v),
+                novelty,
+                owner,
+                SPACE if surface == GROUND else Frame(tuple(origin), tuple(x_axis), tuple(y_axis)),
+            )
         )
     return tuple(found)

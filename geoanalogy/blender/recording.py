@@ -15,7 +15,7 @@ from ..operations.array_placement import ArrayPlacement
 from ..operations.choice_placement import ChoicePlacement
 from ..operations.group_placement import GroupPlacement
 from ..operations.layout import Layout
-from ..operations.node import Link, Node
+from ..operations.node import Node
 from ..operations.operation import Operation
 from ..operations.placing import Placing
 from ..operations.pose_placement import PosePlacement
@@ -29,6 +29,7 @@ from ..progress import Stepper, within
 from . import names
 from .evaluating import (
     Surroundings,
+    after_steps,
     evaluations,
     incoming_steps,
     mark_stale,
@@ -39,8 +40,10 @@ from .evaluating import (
 from .footprints import pose_of, rest_of
 from .ground import label_of
 from .lessons import learn, learn_group, learn_row, scene_without
-from .tree_editing import free_id, leaf
-from .tree_store import Placed, add_node, ensure_tree, placed_by, write_operation, write_placed
+from .sites import Site, site_of, sites_in
+from .tree_editing import chosen_outputs, free_id
+from .tree_store import Placed, add_node, builds, ensure_tree, placed_by, tree_of, write_operation, write_placed
+from .whole import whole_steps, write_whole
 
 #: Least importance that is computed; the threshold of the slider lies above it.
 LEAST_IMPORTANCE = 0.1
@@ -51,8 +54,8 @@ THRESHOLD = 0.5
 #: Options of a propagation in Blender: objects keep their size, unless the user asks for another.
 OPTIONS = PoseOptions(scale="fixed", threshold=LEAST_IMPORTANCE)
 
-#: Makes an operation from its surroundings, what else stands there, and what was recorded of it before.
-Make = Callable[[Surroundings, Scene, Operation | None], Operation]
+#: Makes an operation from its site, what else stands there, and what was recorded of it before.
+Make = Callable[[Site, Scene, Operation | None], Operation]
 
 
 def pose_steps(
@@ -95,8 +98,8 @@ def pose_steps(
     item = require_object(context, item)
     label = label_of(item, context.scene)
 
-    def make(around: Surroundings, scene: Scene, before: Operation | None) -> Operation:
-        model = learn(item, around, scene, options)
+    def make(site: Site, scene: Scene, before: Operation | None) -> Operation:
+        model = learn(item, site, scene, options)
         most = _most_per(max_per, model)
         return PosePlacement(
             mesh=item.name, label=label, model=model, threshold=threshold, max_per=most, spacing=spacing
@@ -147,8 +150,8 @@ def choice_steps(
     items = [require_object(context, item) for item in items or [None]]
     label = label_of(items[0], context.scene)
 
-    def make(around: Surroundings, scene: Scene, before: Operation | None) -> Operation:
-        models = tuple(learn(item, around, scene, options) for item in items)
+    def make(site: Site, scene: Scene, before: Operation | None) -> Operation:
+        models = tuple(learn(item, site, scene, options) for item in items)
         return ChoicePlacement(
             meshes=tuple(item.name for item in items),
             label=label,
@@ -210,8 +213,8 @@ def array_steps(
         raise InputError(f"object {end.name!r} is to mark the array's end, but is no empty; add an empty there")
     items = [start] if end is None else [start, end]
 
-    def make(around: Surroundings, scene: Scene, before: Operation | None) -> Operation:
-        model = learn_row(items, around, scene, spacing, options, array_options or ArrayOptions())
+    def make(site: Site, scene: Scene, before: Operation | None) -> Operation:
+        model = learn_row(items, site, scene, spacing, options, array_options or ArrayOptions())
         return ArrayPlacement(mesh=start.name, label=label, model=model, threshold=threshold)
 
     return _record_steps(context, items, ArrayPlacement, make, name or label)
@@ -260,9 +263,9 @@ def transfer_steps(
     items = [require_object(context, item) for item in items] if own else list(items)
     labels = [label_of(item, context.scene) for item in items]
 
-    def make(around: Surroundings, scene: Scene, before: Operation | None) -> Operation:
-        group = learn_group(items, around, scene, options or TransferOptions())
-        meshes = tuple(one.mesh for one in _placed(items, around))
+    def make(site: Site, scene: Scene, before: Operation | None) -> Operation:
+        group = learn_group(items, site, scene, options or TransferOptions())
+        meshes = tuple(one.mesh for one in _placed(items, tree_of(context.scene), site))
         return GroupPlacement(meshes=meshes, labels=tuple(labels), group=group, own=own, everything=everything)
 
     return _record_steps(context, items, GroupPlacement, make, name or f"{labels[0]} group")
@@ -303,8 +306,8 @@ def scatter_steps(
     item = require_object(context, item)
     label = label_of(item, context.scene)
 
-    def make(around: Surroundings, scene: Scene, before: Operation | None) -> Operation:
-        model = ScatterModel(learn(item, around, scene, options), scatter_options)
+    def make(site: Site, scene: Scene, before: Operation | None) -> Operation:
+        model = ScatterModel(learn(item, site, scene, options), scatter_options)
         return ScatterPlacement(mesh=item.name, label=label, model=model, seed=seed)
 
     return _record_steps(context, [item], ScatterPlacement, make, name or label)
@@ -342,15 +345,15 @@ def _most_per(max_per: Mapping[str, int] | None, model: PoseModel) -> dict[str, 
     return {label or model.parent.label: count for label, count in (max_per or {}).items()}
 
 
-def _placed(items: Sequence[bpy.types.Object], around: Surroundings) -> list[Placed]:
+def _placed(items: Sequence[bpy.types.Object], tree: bpy.types.NodeTree | None, site: Site) -> list[Placed]:
     """The library objects behind objects of the scene: they themselves, or what results are copies of."""
     found = []
     for item in items:
         if names.KEY in item:
-            source = around.tree.nodes[item[names.NODE]]
+            source = tree.nodes[item[names.NODE]]
             found.append(next(one for one in placed_by(source) if one.item and one.item.data == item.data))
         else:
-            found.append(Placed(item.name, item, rest_of(item, pose_of(item, around.plane), around.plane)))
+            found.append(Placed(item.name, item, rest_of(item, pose_of(item, site.plane), site.plane)))
     return found
 
 
@@ -358,25 +361,30 @@ def _record_steps(
     context: bpy.types.Context, items: Sequence[bpy.types.Object], kind: type[Placing], make: Make, name: str
 ) -> Stepper[bpy.types.Node]:
     """Record an operation: make it from what comes in, evaluate it, and write both."""
-    around = surroundings_of(read_surroundings(context, items), items[0])
+    every = read_surroundings(context, items)
+    around = surroundings_of(every, items[0])
+    whole = builds(around.tree)
     known = next((n for n in around.nodes if _is_of(n, around, kind, items)), None)
     if known is not None:
         before = around.engine.node(known.name)
         layout = yield from within(incoming_steps(around, known.name), 0.0, 0.3)
-        operation = make(around, scene_without(layout, items), before.operation)
+        site = _site(around, layout, items[0])
+        operation = make(site, scene_without(site, items), before.operation)
         # What the user has accepted and rejected of it stays.
         operation = replace(operation, decisions=before.operation.decisions)
         node = replace(before, operation=operation, muted=False)
     else:
-        source = leaf(around.nodes, around.tree.nodes.active if around.tree else None)
-        layout = Layout(around.ground.scene)
-        if source is not None:
-            steps = around.engine.layout_steps(around.ground.scene, source.name, around.seed)
-            layout = yield from within(steps, 0.0, 0.3)
-        operation = make(around, scene_without(layout, items), None)
-        node = Node(free_id(around.tree, name), operation, () if source is None else (Link(source.name),))
-    placed = _placed(items, around)
-    after = yield from within(evaluations.steps(node, layout, around.seed), 0.3, 1.0)
+        links = chosen_outputs(around.tree, around.nodes)
+        (layout,) = yield from within(after_steps([around], links), 0.0, 0.3)
+        site = _site(around, layout, items[0])
+        operation = make(site, scene_without(site, items), None)
+        node = Node(free_id(around.tree, name), operation, links)
+    placed = _placed(items, around.tree, site)
+    if whole:
+        around.engine = around.engine.with_node(node)
+        layouts = yield from within(whole_steps(every), 0.3, 1.0)
+    else:
+        after = yield from within(evaluations.steps(node, layout, around.seed), 0.3, 1.0)
     tree = ensure_tree(context.scene)
     if known is None:
         known = add_node(tree, node, placed, around.plane)
@@ -384,9 +392,18 @@ def _record_steps(
         write_operation(known, node)
         write_placed(known, placed, around.plane)
         tree.nodes.active = known
-    write_node(known, [(around, after[0].elements)])
-    mark_stale(tree, known)
+    if whole:
+        around.nodes.append(known)
+        write_whole(context.scene, tree, every, layouts)
+    else:
+        write_node(known, [(around, after[0].elements)])
+        mark_stale(tree, known)
     return known
+
+
+def _site(around: Surroundings, layout: Layout, item: bpy.types.Object) -> Site:
+    """Where an example lies: on the ground, or on a surface that an operation has made."""
+    return site_of(sites_in(around.ground, layout, around.depsgraph), [around], item)
 
 
 def _is_of(

@@ -4,13 +4,12 @@ from collections.abc import Iterable, Sequence
 
 import bpy
 
-from ..errors import InputError
 from ..operations.element import Element
 from ..operations.layout import Layout
 from ..operations.node import Node
 from ..operations.placing import Placing
 from ..operations.tree import OperationsTree
-from . import names, tree_types
+from . import names
 from .ground import Ground, read_grounds
 from .instances import write_results
 from .planes import Plane
@@ -22,7 +21,6 @@ from .tree_store import (
     ordered_nodes,
     placed_by,
     plane_of,
-    tree_of,
     works_everywhere,
 )
 
@@ -151,23 +149,6 @@ def stored_layout(scene: bpy.types.Scene, node: bpy.types.Node) -> list[tuple[Gr
     return [(ground, stored_layouts(engine, node.id_data, ground)[node.name]) for ground in chosen]
 
 
-def layout_at(layouts: list[tuple[Ground, Layout]], e: Element) -> tuple[Ground, Layout] | None:
-    """The ground that an element lies on, and what else is there.
-
-    Parameters
-    ----------
-    layouts : list of (Ground, Layout)
-        By `stored_layout`.
-    e : Element
-
-    Returns
-    -------
-    (Ground, Layout) or None
-        None where its parent is no longer there.
-    """
-    return next(((g, layout) for g, layout in layouts if any(p.id == e.parent for p in layout.scene.polygons)), None)
-
-
 def in_order(node: bpy.types.Node, parts: Sequence[tuple[Plane, Iterable[Element]]]) -> list[tuple[Element, Plane]]:
     """The elements of a node on all its planes, in the order in which they are shown.
 
@@ -182,7 +163,7 @@ def in_order(node: bpy.types.Node, parts: Sequence[tuple[Plane, Iterable[Element
     list of (Element, Plane)
         As they are on a single plane; the best of all planes first where there are several.
     """
-    standing = [(e, plane) for plane, elements in parts for e in elements if e.node == node.name]
+    standing = [(e, plane.under(e.frame)) for plane, elements in parts for e in elements if e.node == node.name]
     return standing if len(parts) == 1 else sorted(standing, key=lambda one: -one[0].importance)
 
 
@@ -212,24 +193,3 @@ def show(scene: bpy.types.Scene, node: bpy.types.Node, *, unmoved: bool = False)
     standing = in_order(node, parts)
     node[names.COUNT] = write_results(scene, node.name, standing, placed_by(node), unmoved=unmoved)
     return node[names.COUNT]
-
-
-def _show_sifted(node: bpy.types.Node) -> None:
-    scene = bpy.context.scene
-    if tree_of(scene) != node.id_data:
-        return
-    node.pop(names.PROBLEM, None)
-    try:
-        show(scene, node, unmoved=True)
-    except InputError as error:
-        node[names.PROBLEM] = str(error)
-
-
-def register():
-    """Show results again when a setting that sifts them changes."""
-    tree_types.on_sifted.append(_show_sifted)
-
-
-def unregister():
-    """No longer do so."""
-    tree_types.on_sifted.remove(_show_sifted)

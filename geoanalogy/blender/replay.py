@@ -7,14 +7,13 @@ from pathlib import Path
 import bpy
 
 from ..errors import InputError
-from ..operations.element import Element
 from ..progress import Stepper, run, within
-from . import names, register
+from . import register
 from .drawing import draw_picture
-from .evaluating import read_surroundings, write_node
-from .instances import arrange_collections, clear_results, collection_of
+from .evaluating import read_surroundings
 from .lessons import relearned_steps
 from .tree_store import operation_nodes, ordered_nodes, require_operations, write_operation
+from .whole import whole_steps, write_whole
 
 
 @dataclass(frozen=True)
@@ -27,10 +26,16 @@ class Report:
         How many were replayed; muted ones do not count.
     objects : int
         How many results stand there.
+    masses : int
+        How many solids and outlines.
+    problems : tuple of str
+        What could not be done, a sentence each.
     """
 
     operations: int
     objects: int
+    masses: int = 0
+    problems: tuple[str, ...] = ()
 
 
 def replay_steps(
@@ -70,31 +75,16 @@ def replay_steps(
             operation = replace(operation, threshold=threshold)
         for around in own:
             around.engine = around.engine.with_node(replace(around.engine.node(node.name), operation=operation))
-    elements: list[list[Element]] = []
-    for i, around in enumerate(every):
-        start, end = (0.5 + 0.5 * k / len(every) for k in (i, i + 1))
-        elements.append((yield from within(around.engine.steps(around.ground.scene, seed), start, end)))
+    layouts = yield from within(whole_steps(every, seed=seed), 0.5, 1.0)
     yield 1.0, "placing objects"
     if tree.seed != seed:
         tree.seed = seed
-    rank = [node.name for node in nodes]
-    _clear_removed(context.scene, set(rank))
-    count = 0
     for node in nodes:
-        own = [(around, placed) for around, placed in zip(every, elements, strict=True) if node in around.nodes]
-        write_operation(node, own[0][0].engine.node(node.name))
-        count += write_node(node, own)
-    arrange_collections(context.scene, rank)
+        around = next(around for around in every if node in around.nodes)
+        write_operation(node, around.engine.node(node.name))
+    shown = write_whole(context.scene, tree, every, layouts)
     context.view_layer.update()
-    return Report(sum(not node.mute for node in operation_nodes(tree)), count)
-
-
-def _clear_removed(scene: bpy.types.Scene, present: set[str]) -> None:
-    """Delete the results of operations that are gone."""
-    made = {item[names.NODE] for item in scene.objects if names.KEY in item}
-    gone = made - present
-    if gone:
-        clear_results(scene, [name for name in sorted(gone) if collection_of(scene, name)])
+    return Report(sum(not node.mute for node in operation_nodes(tree)), shown.objects, shown.masses, shown.problems)
 
 
 def replay_file(

@@ -1,10 +1,13 @@
 """Editing the operations tree: names, ends of chains, taking nodes out and changing their order."""
 
+import json
 from collections.abc import Sequence
 
 import bpy
 
 from ..errors import InputError
+from ..operations.node import Link
+from . import names
 from .tree_store import sources_of
 
 
@@ -39,11 +42,66 @@ def leaf(nodes: Sequence[bpy.types.Node], active: bpy.types.Node | None) -> bpy.
     bpy.types.Node or None
         None before the first operation.
     """
-    followed = {source.name for node in nodes for source, _ in sources_of(node)}
-    leaves = [node for node in nodes if node.name not in followed]
+    ends = open_outputs(nodes)
+    leaves = [node for node in nodes if any(link.node == node.name for link in ends)]
     if active is not None and active in leaves:
         return active
     return leaves[-1] if leaves else None
+
+
+def open_outputs(nodes: Sequence[bpy.types.Node]) -> tuple[Link, ...]:
+    """The outputs of nodes that none of them takes its input from: what merges all branches.
+
+    Parameters
+    ----------
+    nodes : sequence of bpy.types.Node
+
+    Returns
+    -------
+    tuple of Link
+    """
+    used = {(source.name, output) for node in nodes for source, output in sources_of(node)}
+    every = (Link(node.name, k) for node in nodes for k in range(len(node.outputs)))
+    return tuple(link for link in every if (link.node, link.output) not in used)
+
+
+def chosen_outputs(tree: bpy.types.NodeTree | None, nodes: Sequence[bpy.types.Node]) -> tuple[Link, ...]:
+    """What the next operation builds on: the outputs that were chosen, else the first open one of the leaf.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree or None
+    nodes : sequence of bpy.types.Node
+        Those that it may build on, inputs first.
+
+    Returns
+    -------
+    tuple of Link
+        None before the first operation.
+    """
+    if tree is None:
+        return ()
+    own = {node.name: node for node in nodes}
+    stored = json.loads(tree.get(names.BUILD_ON, "[]"))
+    chosen = tuple(Link(name, k) for name, k in stored if name in own and k < len(own[name].outputs))
+    if chosen:
+        return chosen
+    source = leaf(nodes, tree.nodes.active)
+    return tuple(link for link in open_outputs(nodes) if source is not None and link.node == source.name)[:1]
+
+
+def build_on(tree: bpy.types.NodeTree, links: Sequence[Link]) -> None:
+    """Choose the outputs that the next operation builds on.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree
+    links : sequence of Link
+        None: the active operation again.
+    """
+    tree.pop(names.BUILD_ON, None)
+    if links:
+        tree[names.BUILD_ON] = json.dumps([[link.node, link.output] for link in links])
 
 
 def remove_node(tree: bpy.types.NodeTree, node: bpy.types.Node) -> None:

@@ -7,7 +7,7 @@ id, and its mute switch is the engine's.
 """
 
 import json
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import bpy
@@ -15,9 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from ..operations.boolean import Boolean
 from ..operations.evaluation import Evaluations
+from ..operations.extrusion import Extrusion
 from ..operations.node import Link, Node
 from ..operations.rectangle_placement import RectanglePlacement
+from ..operations.selection import Selection
 from ..operations.tree import SCHEMA, VERSION, OperationsTree
 from . import names
 from .plain import from_property, to_property
@@ -27,6 +30,9 @@ Array = NDArray[np.float64]
 
 #: Distance between the nodes of a chain in the node editor.
 NODE_GAP = 260.0
+
+#: The types of operations that make solids and surfaces, or choose among them.
+BUILDING = {Extrusion.type, Boolean.type, Selection.type}
 
 
 @dataclass(frozen=True)
@@ -166,8 +172,8 @@ def plane_of(node: bpy.types.Node) -> Plane:
     return Plane() if stored is None else Plane.of_matrix(np.reshape(stored.to_list(), (4, 4)))
 
 
-def works_everywhere(node: bpy.types.Node) -> bool:
-    """Whether a node places on every plane, not on that of its example alone.
+def is_placement(node: bpy.types.Node) -> bool:
+    """Whether a node places by several examples.
 
     Parameters
     ----------
@@ -178,6 +184,48 @@ def works_everywhere(node: bpy.types.Node) -> bool:
     bool
     """
     return node[names.OPERATION].get("type") == RectanglePlacement.type
+
+
+def is_building(node: bpy.types.Node) -> bool:
+    """Whether a node makes or chooses among elements, solids and surfaces, and places nothing itself.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+
+    Returns
+    -------
+    bool
+    """
+    return node[names.OPERATION].get("type") in BUILDING
+
+
+def builds(tree: bpy.types.NodeTree | None) -> bool:
+    """Whether a tree has such nodes: what stands in the scene then depends on all of its nodes together.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree or None
+
+    Returns
+    -------
+    bool
+    """
+    return any(is_building(node) for node in operation_nodes(tree))
+
+
+def works_everywhere(node: bpy.types.Node) -> bool:
+    """Whether a node works on every plane, not on that of its example alone.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+
+    Returns
+    -------
+    bool
+    """
+    return is_placement(node) or is_building(node)
 
 
 def engine_node(node: bpy.types.Node) -> Node:
@@ -203,7 +251,6 @@ def engine_tree(
     nodes: Sequence[bpy.types.Node],
     evaluations: Evaluations | None = None,
     linked: bool = True,
-    working: Collection[str] | None = None,
 ) -> OperationsTree:
     """Nodes as the engine's tree.
 
@@ -213,8 +260,6 @@ def engine_tree(
     evaluations : Evaluations, optional
     linked : bool
         Whether links count; they must come from nodes among these.
-    working : collection of str, optional
-        Names of the nodes that have something to do; the others pass on what comes in. None: all that are not muted.
 
     Returns
     -------
@@ -230,11 +275,10 @@ def engine_tree(
         plain = from_property(node[names.OPERATION])
         sources = [{"node": source.name, "output": output} for source, output in sources_of(node)] if linked else []
         entry = {"id": node.name, "type": plain.get("type"), "settings": plain.get("settings", {})}
-        muted = node.mute or (working is not None and node.name not in working)
-        entry |= {"inputs": sources, "muted": muted}
+        entry |= {"inputs": sources, "muted": node.mute}
         holder = {"schema": plain.get("schema"), "nodes": [{**entry, "inputs": []}]}
         (read,) = OperationsTree.from_dict(holder, f"the operation {node.name!r}").nodes
-        made.append(Node(read.id, read.operation, tuple(Link(s["node"], s["output"]) for s in sources), muted))
+        made.append(Node(read.id, read.operation, tuple(Link(s["node"], s["output"]) for s in sources), node.mute))
     return OperationsTree(made, evaluations)
 
 
@@ -256,6 +300,17 @@ def write_operation(node: bpy.types.Node, operation: Node) -> None:
         rule = [[relation.text, relation.weight] for relation in operation.operation.model.rule()]
         node[names.RULE] = json.dumps(rule, ensure_ascii=False)
     node.mute = operation.muted
+    _fit_outputs(node, operation.operation.outputs)
+
+
+def _fit_outputs(node: bpy.types.Node, count: int) -> None:
+    """Give a node as many outputs as its operation has."""
+    while len(node.outputs) > count:
+        node.outputs.remove(node.outputs[-1])
+    while len(node.outputs) < count:
+        node.outputs.new(names.LAYOUT_SOCKET, "Layout")
+    for i, socket in enumerate(node.outputs):
+        socket.name = f"Set {i + 1}" if count > 1 else "Layout"
 
 
 def add_node(tree: bpy.types.NodeTree, operation: Node, placed: Sequence[Placed], plane: Plane) -> bpy.types.Node:
@@ -277,8 +332,6 @@ def add_node(tree: bpy.types.NodeTree, operation: Node, placed: Sequence[Placed]
     node.name = operation.id
     write_operation(node, operation)
     write_placed(node, placed, plane)
-    for _ in range(len(node.outputs), operation.operation.outputs):
-        node.outputs.new(names.LAYOUT_SOCKET, "Layout")
     sources = [tree.nodes[link.node] for link in operation.inputs]
     for link, source in zip(operation.inputs, sources, strict=True):
         tree.links.new(source.outputs[link.output], node.inputs[0])

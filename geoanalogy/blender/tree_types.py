@@ -7,7 +7,7 @@ add-on; what is registered here only shows them.
 from collections.abc import Mapping
 
 import bpy
-from bpy.props import FloatProperty, IntProperty
+from bpy.props import BoolProperty, FloatProperty, IntProperty
 
 from . import names
 from .plain import to_property
@@ -25,6 +25,10 @@ class GEOANALOGY_NT_tree(bpy.types.NodeTree):
     bl_icon = "OUTLINER"
 
     seed: IntProperty(name="Seed", description="Seed of the operations that draw lots", default=0, min=0)
+    merged: BoolProperty(
+        name="Merge Masses",
+        description="One mesh per label instead of one object per solid: for many, which are not corrected one by one",
+    )
 
     def _active(self):
         active = self.nodes.active

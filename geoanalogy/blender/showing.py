@@ -1,0 +1,51 @@
+"""Showing results again when what sifts them has changed."""
+
+import bpy
+
+from ..errors import InputError
+from . import names, tree_types
+from .refresh import show
+from .tree_store import builds, tree_of
+from .whole import show_whole
+
+
+def show_again(context: bpy.types.Context, node: bpy.types.Node, *, unmoved: bool = False) -> None:
+    """Show what a node's settings and decisions let pass, and what comes of it where solids are made of it.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    node : bpy.types.Node
+        Of the scene's tree.
+    unmoved : bool
+        Whether only the selection has changed, not where results stand.
+
+    Raises
+    ------
+    InputError
+        Where the ground cannot be read.
+    """
+    if builds(node.id_data):
+        show_whole(context)
+    else:
+        show(context.scene, node, unmoved=unmoved)
+
+
+def _show_sifted(node: bpy.types.Node) -> None:
+    if tree_of(bpy.context.scene) != node.id_data:
+        return
+    node.pop(names.PROBLEM, None)
+    try:
+        show_again(bpy.context, node, unmoved=True)
+    except InputError as error:
+        node[names.PROBLEM] = str(error)
+
+
+def register():
+    """Show results again when a setting that sifts them changes."""
+    tree_types.on_sifted.append(_show_sifted)
+
+
+def unregister():
+    """No longer do so."""
+    tree_types.on_sifted.remove(_show_sifted)
