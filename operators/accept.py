@@ -3,6 +3,7 @@
 import bpy
 
 from ..geoanalogy.blender.corrections import decide, selected_results
+from ..geoanalogy.blender.region_decisions import decide_on_regions
 from .edit import Edit, needs_operations
 
 
@@ -18,7 +19,9 @@ class GEOANALOGY_OT_accept(Edit, bpy.types.Operator):
 
     def edit(self, context):
         """Write the verdict."""
-        return f"{decide(context, selected_results(context), 'accept')} accepted"
+        count, others = decide_on_regions(context, selected_results(context), "accept")
+        count += decide(context, others, "accept") if others or not count else 0
+        return f"{count} accepted"
 
 
 def register():

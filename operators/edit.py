@@ -5,7 +5,7 @@ from collections.abc import Generator
 import bpy
 
 from ..geoanalogy.blender.jobs import Job
-from ..geoanalogy.blender.tree_store import operation_nodes, tree_of
+from ..geoanalogy.blender.tree_store import recorded_nodes, tree_of
 from ..geoanalogy.errors import InputError
 from ..geoanalogy.progress import run
 
@@ -109,7 +109,7 @@ def needs_operations(cls: type, context: bpy.types.Context) -> bool:
     """Whether the scene has operations; where not, the operator says so."""
     if not needs_object_mode(cls, context):
         return False
-    if not operation_nodes(tree_of(context.scene)):
+    if not recorded_nodes(tree_of(context.scene)):
         cls.poll_message_set("There are no operations yet: propagate an object first")
         return False
     return True
@@ -118,7 +118,7 @@ def needs_operations(cls: type, context: bpy.types.Context) -> bool:
 def active_operation(context: bpy.types.Context) -> bpy.types.Node:
     """The operation that is active in the list."""
     tree = tree_of(context.scene)
-    nodes = operation_nodes(tree)
+    nodes = recorded_nodes(tree)
     active = tree.nodes.active if tree else None
     if active is None or active not in nodes:
         raise InputError("no operation is active; click one in the list of step 5")

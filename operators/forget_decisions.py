@@ -3,6 +3,8 @@
 import bpy
 
 from ..geoanalogy.blender.placement_recording import forgotten_steps
+from ..geoanalogy.blender.region_decisions import forget_regions
+from ..geoanalogy.blender.tree_store import works_on_drawings
 from .edit import LongEdit, active_operation, needs_operations
 
 
@@ -18,7 +20,10 @@ class GEOANALOGY_OT_forget_decisions(LongEdit, bpy.types.Operator):
 
     def steps(self, context):
         """Take the verdicts back."""
-        count = yield from forgotten_steps(context, active_operation(context))
+        node = active_operation(context)
+        if works_on_drawings(node):
+            return f"{forget_regions(context, node)} decisions taken back"
+        count = yield from forgotten_steps(context, node)
         return f"{count} decisions taken back"
 
 

@@ -4,6 +4,8 @@ import bpy
 
 from ..geoanalogy.blender.evaluating import mark_stale
 from ..geoanalogy.blender.refresh import show
+from ..geoanalogy.blender.region_results import show_targets
+from ..geoanalogy.blender.tree_store import works_on_drawings
 from .edit import Edit, active_operation, needs_operations
 
 
@@ -21,6 +23,9 @@ class GEOANALOGY_OT_mute_operation(Edit, bpy.types.Operator):
         """Switch it over."""
         node = active_operation(context)
         node.mute = not node.mute
+        if works_on_drawings(node):
+            show_targets(context.scene, node)
+            return f"{node.name} {'muted' if node.mute else 'no longer muted'}"
         show(context.scene, node)
         mark_stale(node.id_data, node)
         return f"{node.name} {'muted' if node.mute else 'no longer muted'}"

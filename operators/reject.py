@@ -4,6 +4,7 @@ import bpy
 
 from ..geoanalogy.blender.corrections import selected_results
 from ..geoanalogy.blender.placement_recording import rejected_steps
+from ..geoanalogy.blender.region_decisions import decide_on_regions
 from .edit import LongEdit, needs_operations
 
 
@@ -19,7 +20,9 @@ class GEOANALOGY_OT_reject(LongEdit, bpy.types.Operator):
 
     def steps(self, context):
         """Write the verdict."""
-        count = yield from rejected_steps(context, selected_results(context))
+        count, others = decide_on_regions(context, selected_results(context), "reject")
+        if others or not count:
+            count += yield from rejected_steps(context, others)
         return f"{count} rejected"
 
 

@@ -3,6 +3,8 @@
 import bpy
 
 from ..geoanalogy.blender.corrections import reject_below
+from ..geoanalogy.blender.region_decisions import reject_regions_below
+from ..geoanalogy.blender.tree_store import works_on_drawings
 from .edit import Edit, active_operation, needs_operations
 
 
@@ -18,7 +20,8 @@ class GEOANALOGY_OT_reject_below(Edit, bpy.types.Operator):
 
     def edit(self, context):
         """Write the verdicts."""
-        return f"{reject_below(context, active_operation(context))} rejected"
+        node = active_operation(context)
+        return f"{(reject_regions_below if works_on_drawings(node) else reject_below)(context, node)} rejected"
 
 
 def register():

@@ -2,7 +2,7 @@
 
 from ..geoanalogy.blender.registration import register_in_order, unregister_in_order
 
-MODULES = (".plan", ".example", ".propagation", ".placement", ".results", ".operations", ".diagnostics")
+MODULES = (".plan", ".example", ".propagation", ".placement", ".results", ".operations", ".drawings", ".diagnostics")
 
 
 def register():

@@ -14,7 +14,7 @@ class GEOANALOGY_PT_diagnostics(SidebarPanel, bpy.types.Panel):
     bl_idname = "GEOANALOGY_PT_diagnostics"
     bl_label = "Diagnostics"
     bl_options = {"DEFAULT_CLOSED"}
-    bl_order = 6
+    bl_order = 7
 
     def draw(self, context):
         column = self.layout.column(align=True)

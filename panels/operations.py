@@ -3,7 +3,7 @@
 import bpy
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.tree_store import ordered_nodes, tree_of
+from ..geoanalogy.blender.tree_store import drawing_nodes, ordered_nodes, tree_of
 from .base import SidebarPanel, hint
 
 
@@ -29,7 +29,7 @@ class GEOANALOGY_UL_operations(bpy.types.UIList):
 
     def filter_items(self, context, data, property):
         nodes = list(getattr(data, property))
-        rank = {node.name: i for i, node in enumerate(ordered_nodes(data))}
+        rank = {node.name: i for i, node in enumerate([*ordered_nodes(data), *drawing_nodes(data)])}
         shown = [self.bitflag_filter_item if node.name in rank else 0 for node in nodes]
         others = iter(range(len(rank), len(nodes)))
         order = [rank[node.name] if node.name in rank else next(others) for node in nodes]
@@ -44,6 +44,7 @@ def _icon(kind):
         "scatter": "STICKY_UVS_DISABLE",
         "choice": "RNDCURVE",
         "placement": "SELECT_SET",
+        "region transfer": "BRUSH_DATA",
     }
     return icons.get(kind, "NODE")
 

@@ -10,7 +10,7 @@ example to its results; `instances`, which shows them; `refresh` and `correction
 
 from .registration import register_in_order, unregister_in_order
 
-MODULES = (".command", ".properties", ".tree_types", ".showing", ".region_results", ".handlers")
+MODULES = (".command", ".properties", ".tree_types", ".showing", ".handlers")
 
 
 def register():

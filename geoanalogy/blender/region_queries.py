@@ -81,17 +81,17 @@ def read_query(item: bpy.types.Object | None, plane: Plane) -> ReadQuery:
 
 
 def add_query(
-    context: bpy.types.Context, points: Sequence[ArrayLike], closed: bool, radius: float = 0.0, name: str = ""
+    context: bpy.types.Context, strokes: Sequence[ArrayLike], closed: bool, radius: float = 0.0, name: str = ""
 ) -> bpy.types.Object:
     """Make a query of points that were drawn, and choose it.
 
     Parameters
     ----------
     context : bpy.types.Context
-    points : sequence of array_like of shape (3,)
-        In the world; they are taken to the plane of the drawing.
+    strokes : sequence of array_like of shape (n, 3)
+        In the world; they are taken to the plane of the drawing. Several only of a brush.
     closed : bool
-        Whether they go round a region; else they are a stroke.
+        Whether the line goes round a region; else it is a stroke along a thin shape.
     radius : float
         Of a brush: the region that it has passed over, scene units; 0: no brush.
     name : str
@@ -107,13 +107,15 @@ def add_query(
     InputError
         Where there are too few points, or some that are not finite; then none is made.
     """
-    given = np.asarray(points, float).reshape(-1, 3)
-    if not np.isfinite(given).all():
+    given = [np.asarray(stroke, float).reshape(-1, 3) for stroke in strokes if len(stroke)]
+    if not all(np.isfinite(stroke).all() for stroke in given) or not np.isfinite(radius):
         raise InputError("the query has a point that is not finite (NaN or infinity); draw it again")
     drawn = read_drawn_lines(context)
-    flat = drawn.plane.to_plane(given)[:, :2]
-    if radius > 0.0 and len(flat):
-        flat, closed = brushed(flat, radius), True
+    parts = [drawn.plane.to_plane(stroke)[:, :2] for stroke in given]
+    if radius > 0.0 and parts:
+        flat, closed = brushed(parts, radius), True
+    else:
+        flat = parts[0] if len(parts) == 1 else np.zeros((0, 2))
     if len(flat) < (3 if closed else 2) or extent(flat) == 0.0:
         raise InputError("the query has no extent; drag round the region, or along the shape")
     ring = np.vstack([flat, flat[:1]]) if closed and np.any(flat[0] != flat[-1]) else flat
@@ -184,21 +186,22 @@ def choose_query(context: bpy.types.Context, item: bpy.types.Object, closed: boo
     context.scene.geoanalogy.query = item
 
 
-def brushed(points: Array, radius: float) -> Array:
+def brushed(strokes: Sequence[Array], radius: float) -> Array:
     """The outline of what a round brush has passed over.
 
     Parameters
     ----------
-    points : ndarray of shape (n, 2)
+    strokes : sequence of ndarray of shape (n, 2)
     radius : float
 
     Returns
     -------
     ndarray of shape (m, 2)
-        Without holes; the last point is not repeated.
+        Of the largest part, without holes; the last point is not repeated.
     """
-    path = shapely.linestrings(points) if len(points) > 1 else shapely.points(points[0])
-    outline = shapely.get_exterior_ring(path.buffer(radius, quad_segs=BRUSH_CORNERS))
+    paths = [shapely.linestrings(stroke) if len(stroke) > 1 else shapely.points(stroke[0]) for stroke in strokes]
+    swept = shapely.union_all([path.buffer(radius, quad_segs=BRUSH_CORNERS) for path in paths])
+    outline = shapely.get_exterior_ring(max(shapely.get_parts(swept), key=lambda part: part.area))
     return shapely.get_coordinates(outline.simplify(0.05 * radius))[:-1]
 
 

@@ -19,6 +19,7 @@ from ..operations.region_transfer import Found, RegionTransfer, Target
 from ..progress import Stepper, within
 from ..regions.options import RegionOptions
 from . import names
+from .instances import clear_results
 from .planes import Plane
 from .region_contents import points_of
 from .region_drawing import DrawnLines, read_drawn_lines
@@ -29,14 +30,21 @@ from .region_results import (
     clear_targets,
     contents_of,
     key_of,
-    passing,
     show_targets,
-    targets_found,
-    works_on_drawings,
     write_targets,
 )
 from .tree_editing import free_id, leaf
-from .tree_store import add_node, engine_node, ensure_tree, ordered_nodes, plane_of, tree_of, write_operation
+from .tree_store import (
+    add_node,
+    drawing_nodes,
+    engine_node,
+    ensure_tree,
+    plane_of,
+    recorded_nodes,
+    tree_of,
+    works_on_drawings,
+    write_operation,
+)
 
 Array = NDArray[np.float64]
 
@@ -127,8 +135,7 @@ def region_steps(
     made = _evaluated(operation, found, contents, drawn.plane, drawn, started)
     tree = ensure_tree(context.scene)
     if known is None:
-        nodes = [node for node in ordered_nodes(tree) if works_on_drawings(node)]
-        source = leaf(nodes, tree.nodes.active)
+        source = leaf(drawing_nodes(tree), tree.nodes.active)
         links = () if source is None else (Link(source.name),)
         known = add_node(tree, Node(free_id(tree, name or query.name), operation, links), [], drawn.plane)
     else:
@@ -354,6 +361,25 @@ def replayed_steps(
     return made
 
 
+def write_replayed(scene: bpy.types.Scene, transfers: Sequence[tuple[bpy.types.Node, Transfer]]) -> int:
+    """Write what `replayed_steps` has evaluated, and delete the results of region transfers that are gone.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    transfers : sequence of (bpy.types.Node, Transfer)
+
+    Returns
+    -------
+    int
+        How many regions are shown.
+    """
+    present = {node.name for node in recorded_nodes(tree_of(scene))}
+    gone = {i[names.NODE] for i in scene.objects if names.SIMILARITY in i and i[names.NODE] not in present}
+    clear_results(scene, gone)
+    return sum(write_transfer(scene, node, made) for node, made in transfers)
+
+
 def require_transfer(node: bpy.types.Node) -> None:
     """Refuse nodes that are no region transfers.
 
@@ -375,26 +401,9 @@ def forget_found() -> None:
     _found.clear()
 
 
-def uncertain_of(node: bpy.types.Node) -> tuple[int, int]:
-    """How many of the regions that an operation shows are uncertain.
-
-    Parameters
-    ----------
-    node : bpy.types.Node
-
-    Returns
-    -------
-    (int, int)
-        Uncertain ones, and all that are shown.
-    """
-    shown = passing(engine_node(node).operation, targets_found(node))
-    return sum(target.uncertain for target in shown), len(shown)
-
-
 def _node_of(scene: bpy.types.Scene, query: bpy.types.Object | None) -> bpy.types.Node | None:
     """The region transfer that a query was recorded with."""
-    nodes = ordered_nodes(tree_of(scene))
-    return next((n for n in nodes if works_on_drawings(n) and n.get(names.QUERY_OBJECT) == query), None)
+    return next((n for n in drawing_nodes(tree_of(scene)) if n.get(names.QUERY_OBJECT) == query), None)
 
 
 def _read_operation(drawn: DrawnLines, query: bpy.types.Object | None, options: RegionOptions) -> RegionTransfer:

@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from ..operations.decisions import Decisions
 from ..operations.region_transfer import RegionTransfer
-from . import names, tree_types
+from . import names
 from .instances import collection_of, ensure_results_collection, results_in
 from .planes import Plane
 from .region_contents import carried, points_of
 from .region_drawing import line_curve
 from .region_queries import TARGET_COLOUR
-from .tree_store import engine_node, tree_of
+from .tree_store import engine_node
 
 Array = NDArray[np.float64]
 
@@ -134,21 +134,6 @@ def _packed(values: Array) -> str:
 
 def _unpacked(text: str, width: int) -> Array:
     return np.frombuffer(base64.b85decode(text), "<f4").reshape(-1, width).astype(float)
-
-
-def works_on_drawings(node: bpy.types.Node) -> bool:
-    """Whether a node carries over regions of a drawing.
-
-    Parameters
-    ----------
-    node : bpy.types.Node
-
-    Returns
-    -------
-    bool
-    """
-    operation = node.get(names.OPERATION)
-    return hasattr(operation, "items") and operation.get("type") == RegionTransfer.type
 
 
 def write_targets(node: bpy.types.Node, targets: Iterable[StoredTarget], plane: Plane, size: float) -> None:
@@ -299,7 +284,28 @@ def show_targets(scene: bpy.types.Scene, node: bpy.types.Node) -> int:
                 item[names.SIMILARITY], item[names.CONFIDENCE] = target.similarity, target.confidence
                 holder.objects.link(item)
     node[names.COUNT] = len(shown)
+    node[names.UNCERTAIN] = ", ".join(_name(node, rank[target.key]) for target in shown if target.uncertain)
     return len(shown)
+
+
+def uncertain_results(node: bpy.types.Node) -> list[str]:
+    """The results that are shown of a node though little supports them.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+
+    Returns
+    -------
+    list of str
+        Their names.
+    """
+    text = node.get(names.UNCERTAIN, "")
+    return text.split(", ") if text else []
+
+
+def _name(node: bpy.types.Node, rank: int) -> str:
+    return f"{node.name} {rank + 1:03d}"
 
 
 def clear_targets(scene: bpy.types.Scene, node: bpy.types.Node) -> None:
@@ -330,7 +336,7 @@ def _made(
     size: float,
 ) -> list[bpy.types.Object]:
     """The objects of one target."""
-    name = f"{node.name} {rank + 1:03d}"
+    name = _name(node, rank)
     if not contents:
         return [_outline(name, target, plane)]
     # The contents lie where the query is.
@@ -355,20 +361,3 @@ def _outline(name: str, target: StoredTarget, plane: Plane) -> bpy.types.Object:
     item.show_in_front = True
     item.hide_render = True
     return item
-
-
-def _show_sifted(node: bpy.types.Node) -> None:
-    scene = bpy.context.scene
-    if works_on_drawings(node) and tree_of(scene) == node.id_data:
-        node.pop(names.PROBLEM, None)
-        show_targets(scene, node)
-
-
-def register():
-    """Show regions again when the threshold changes."""
-    tree_types.on_sifted.append(_show_sifted)
-
-
-def unregister():
-    """No longer do so."""
-    tree_types.on_sifted.remove(_show_sifted)

@@ -12,7 +12,8 @@ from . import register
 from .drawing import draw_picture
 from .evaluating import read_surroundings
 from .lessons import relearned_steps
-from .tree_store import operation_nodes, ordered_nodes, require_operations, write_operation
+from .region_recording import replayed_steps, write_replayed
+from .tree_store import drawing_nodes, operation_nodes, ordered_nodes, require_operations, tree_of, write_operation
 from .whole import whole_steps, write_whole
 
 
@@ -41,7 +42,47 @@ class Report:
 def replay_steps(
     context: bpy.types.Context, *, seed: int | None = None, threshold: float | None = None
 ) -> Stepper[Report]:
-    """Replay the operations of a scene on what stands there now.
+    """Replay the operations of a scene on what stands there and is drawn now.
+
+    Nothing is written before the last step.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    seed : int, optional
+        Of the operations that draw lots; None: the tree's own.
+    threshold : float, optional
+        Least importance, or similarity, of a result; None: each operation's own.
+
+    Returns
+    -------
+    generator of (float, str)
+        Returns the Report.
+
+    Raises
+    ------
+    InputError
+        Where the scene has no operations, or one of them cannot be replayed.
+    """
+    tree = tree_of(context.scene)
+    drawn = drawing_nodes(tree)
+    if not drawn:
+        return (yield from _on_polygons_steps(context, seed=seed, threshold=threshold))
+    share = 0.5 if operation_nodes(tree) else 1.0
+    transfers = yield from within(replayed_steps(context, drawn, threshold), 0.0, share)
+    report = Report(0, 0)
+    if operation_nodes(tree):
+        report = yield from within(_on_polygons_steps(context, seed=seed, threshold=threshold), share, 1.0)
+    shown = write_replayed(context.scene, transfers)
+    context.view_layer.update()
+    muted = sum(node.mute for node in drawn)
+    return replace(report, operations=report.operations + len(drawn) - muted, objects=report.objects + shown)
+
+
+def _on_polygons_steps(
+    context: bpy.types.Context, *, seed: int | None = None, threshold: float | None = None
+) -> Stepper[Report]:
+    """Replay the operations that work on polygons, on what stands there now.
 
     Operations whose examples have been moved are learned again. Nothing is written before the last step.
 

@@ -5,7 +5,8 @@ import bpy
 from ..errors import InputError
 from . import names, tree_types
 from .refresh import show
-from .tree_store import builds, tree_of
+from .region_results import show_targets
+from .tree_store import builds, tree_of, works_on_drawings
 from .whole import show_whole
 
 
@@ -25,7 +26,9 @@ def show_again(context: bpy.types.Context, node: bpy.types.Node, *, unmoved: boo
     InputError
         Where the ground cannot be read.
     """
-    if builds(node.id_data):
+    if works_on_drawings(node):
+        show_targets(context.scene, node)
+    elif builds(node.id_data):
         show_whole(context)
     else:
         show(context.scene, node, unmoved=unmoved)

@@ -20,6 +20,7 @@ from ..operations.evaluation import Evaluations
 from ..operations.extrusion import Extrusion
 from ..operations.node import Link, Node
 from ..operations.rectangle_placement import RectanglePlacement
+from ..operations.region_transfer import RegionTransfer
 from ..operations.selection import Selection
 from ..operations.tree import SCHEMA, VERSION, OperationsTree
 from . import names
@@ -97,7 +98,7 @@ def ensure_tree(scene: bpy.types.Scene) -> bpy.types.NodeTree:
     return tree
 
 
-def operation_nodes(tree: bpy.types.NodeTree | None) -> list[bpy.types.Node]:
+def recorded_nodes(tree: bpy.types.NodeTree | None) -> list[bpy.types.Node]:
     """The nodes that carry an operation.
 
     Parameters
@@ -110,6 +111,51 @@ def operation_nodes(tree: bpy.types.NodeTree | None) -> list[bpy.types.Node]:
         In the order in which they were added.
     """
     return [] if tree is None else [node for node in tree.nodes if hasattr(node.get(names.OPERATION), "items")]
+
+
+def operation_nodes(tree: bpy.types.NodeTree | None) -> list[bpy.types.Node]:
+    """The nodes that carry an operation on polygons.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree or None
+
+    Returns
+    -------
+    list of bpy.types.Node
+        In the order in which they were added.
+    """
+    return [node for node in recorded_nodes(tree) if not works_on_drawings(node)]
+
+
+def drawing_nodes(tree: bpy.types.NodeTree | None) -> list[bpy.types.Node]:
+    """The nodes that carry an operation on the lines of a drawing.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree or None
+
+    Returns
+    -------
+    list of bpy.types.Node
+        Inputs first. They see no polygons, and are linked to each other alone.
+    """
+    return _inputs_first([node for node in recorded_nodes(tree) if works_on_drawings(node)])
+
+
+def works_on_drawings(node: bpy.types.Node) -> bool:
+    """Whether a node carries over regions of a drawing.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+
+    Returns
+    -------
+    bool
+    """
+    operation = node.get(names.OPERATION)
+    return hasattr(operation, "items") and operation.get("type") == RegionTransfer.type
 
 
 def sources_of(node: bpy.types.Node) -> list[tuple[bpy.types.Node, int]]:
@@ -146,7 +192,11 @@ def ordered_nodes(tree: bpy.types.NodeTree | None) -> list[bpy.types.Node]:
     list of bpy.types.Node
         Of those that could come next, the one added first; nodes in a circle come last.
     """
-    waiting = operation_nodes(tree)
+    return _inputs_first(operation_nodes(tree))
+
+
+def _inputs_first(nodes: Sequence[bpy.types.Node]) -> list[bpy.types.Node]:
+    waiting = list(nodes)
     order: list[bpy.types.Node] = []
     done: set[str] = set()
     while waiting:

@@ -1,0 +1,41 @@
+"""Import a drawing from a file."""
+
+import bpy
+from bpy.props import FloatProperty, StringProperty
+from bpy_extras.io_utils import ImportHelper
+
+from ..geoanalogy.blender.region_drawing import add_lines
+from ..geoanalogy.formats.files import read_drawing
+from .edit import Edit, needs_object_mode
+
+
+class GEOANALOGY_OT_import_drawing(Edit, ImportHelper, bpy.types.Operator):
+    """Import the lines of an SVG file into the drawing"""
+
+    bl_idname = "geoanalogy.import_drawing"
+    bl_label = "Import Drawing"
+
+    filter_glob: StringProperty(default="*.svg", options={"HIDDEN"})
+    scale: FloatProperty(name="Scale", description="Scene units per unit of the file", min=1e-6, default=1.0)
+
+    @classmethod
+    def poll(cls, context):
+        return needs_object_mode(cls, context)
+
+    def edit(self, context):
+        """Read the file, and add its lines."""
+        path = bpy.path.abspath(self.filepath)
+        lines = read_drawing(path)
+        name = bpy.path.display_name_from_filepath(path)
+        add_lines(context, [self.scale * line for line in lines], name)
+        return f"{len(lines)} lines"
+
+
+def register():
+    """Register the operator."""
+    bpy.utils.register_class(GEOANALOGY_OT_import_drawing)
+
+
+def unregister():
+    """Unregister it."""
+    bpy.utils.unregister_class(GEOANALOGY_OT_import_drawing)

@@ -1,0 +1,90 @@
+"""Drawings: one region painted, all similar ones painted."""
+
+import bpy
+
+from ..geoanalogy.blender import names
+from ..geoanalogy.blender.region_results import uncertain_results
+from ..geoanalogy.blender.tree_store import tree_of, works_on_drawings
+from .base import SidebarPanel, hint
+
+#: Results that are listed.
+MOST_LISTED = 3
+
+
+class GEOANALOGY_PT_drawings(SidebarPanel, bpy.types.Panel):
+    """Outline one region of a drawing, find all that are like it, and paint them at once."""
+
+    bl_idname = "GEOANALOGY_PT_drawings"
+    bl_label = "Drawings"
+    bl_order = 6
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        layout = self.layout
+        settings = context.scene.geoanalogy
+        row = layout.row(align=True)
+        row.prop(settings, "drawing", text="Drawing")
+        row.operator("geoanalogy.import_drawing", text="", icon="IMPORT")
+        column = layout.column(align=True)
+        column.label(text="Query")
+        row = column.row(align=True)
+        for mode, text, icon in (
+            ("LASSO", "Lasso", "BORDERMOVE"),
+            ("BRUSH", "Brush", "BRUSH_DATA"),
+            ("STROKE", "Stroke", "GREASEPENCIL"),
+        ):
+            row.operator("geoanalogy.draw_query", text=text, icon=icon).mode = mode
+        row = column.row(align=True)
+        row.prop(settings, "query", text="")
+        row.operator("geoanalogy.use_as_query", text="", icon="EYEDROPPER")
+        row = layout.row()
+        row.scale_y = 1.4
+        row.operator("geoanalogy.find_regions", icon="VIEWZOOM")
+        self._draw_found(context, layout)
+
+    def _draw_found(self, context, layout):
+        tree = tree_of(context.scene)
+        node = tree.nodes.active if tree is not None else None
+        if node is None or not works_on_drawings(node):
+            hint(layout, "Nothing found yet")
+            return
+        column = layout.column(align=True)
+        column.label(text=f"{node.name}: {int(node.get(names.COUNT, 0))} regions", icon="OUTLINER_OB_GROUP_INSTANCE")
+        column.prop(node, "threshold", slider=True)
+        row = column.row(align=True)
+        row.operator("geoanalogy.accept", icon="CHECKMARK")
+        row.operator("geoanalogy.reject", icon="X")
+        row.operator("geoanalogy.forget_decisions", text="", icon="LOOP_BACK")
+        problem = node.get(names.PROBLEM)
+        if problem:
+            hint(layout, problem, "ERROR")
+        self._draw_result(context, layout, node)
+        column = layout.column(align=True)
+        column.label(text="Carry Over")
+        column.template_ID(context.scene.geoanalogy, "image", open="image.open")
+        column.operator("geoanalogy.lay_image", icon="IMAGE_DATA")
+        column.operator("geoanalogy.carry_over", icon="DUPLICATE")
+
+    def _draw_result(self, context, layout, node):
+        guesses = uncertain_results(node)
+        if guesses:
+            text = ", ".join(guesses[:MOST_LISTED]) + (" …" if len(guesses) > MOST_LISTED else "")
+            hint(layout, f"Uncertain: {text}", "ERROR")
+        item = context.active_object
+        if item is None or names.SIMILARITY not in item or item.get(names.NODE) != node.name:
+            return
+        box = layout.box()
+        box.label(text=item.name, icon="VIEWZOOM")
+        for text, key in (("Similarity", names.SIMILARITY), ("Confidence", names.CONFIDENCE)):
+            value = float(item.get(key, 0.0))
+            box.progress(factor=value, type="BAR", text=f"{text}  {value:.2f}")
+
+
+def register():
+    """Register the panel."""
+    bpy.utils.register_class(GEOANALOGY_PT_drawings)
+
+
+def unregister():
+    """Unregister it."""
+    bpy.utils.unregister_class(GEOANALOGY_PT_drawings)
