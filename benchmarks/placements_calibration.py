@@ -66,15 +66,15 @@ def part(model, arrangement, truth, kind):
     boxes, quick = survey.glance(lesson, arrangement, drawn, *predictions(lesson, arrangement))
     quick_iou = union_overlap(boxes, truth).max(axis=1)
     some = np.flatnonzero((quick_iou >= 0.4) | (np.arange(len(boxes)) % 16 == 0))
-    seen = survey.survey(lesson, arrangement, drawn, drawn)
+    seen, grounds = survey.search(lesson, arrangement, drawn, drawn)
     found = {
         "judge": "at home" if len(drawn) else "alone" if lesson.one_each else "abroad",
         "quick": quick[some].astype(np.float32),
         "quick_iou": quick_iou[some],
         "boxes": seen.boxes,
-        "anchors": seen.company.anchors,
-        "single": seen.single.astype(np.float32),
-        "among": seen.among.astype(np.float32),
+        "anchors": grounds.company.anchors,
+        "single": grounds.single.astype(np.float32),
+        "among": grounds.among.astype(np.float32),
         "present": drawn,
         "iou": union_overlap(seen.boxes, truth).astype(np.float32),
         "truth": len(here),

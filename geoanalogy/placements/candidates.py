@@ -249,7 +249,7 @@ def predictions(lesson: Lesson, arrangement: Arrangement) -> tuple[Array, NDArra
     if lesson.options.mirrored:
         found = np.hstack([np.minimum(found[:, :2], found[:, 2:]), np.maximum(found[:, :2], found[:, 2:])])
     sizes = lesson.sizes[lesson.positive]
-    found = found[_plausible(found, sizes)]
+    found = found[plausible(found, sizes)]
     cells = _cells(found - _centre(arrangement), EQUAL * CANDIDATE_CELL * np.tile(sizes.mean(axis=0), 2))
     _, first, repeats = np.unique(cells, return_index=True, return_counts=True)
     return found[first], repeats
@@ -288,7 +288,7 @@ def proposals(
     centre = _centre(arrangement)
     size = lesson.sizes[lesson.positive].mean(axis=0)
     if copied is not None:
-        copied = copied[_plausible(copied, lesson.sizes[lesson.positive])]
+        copied = copied[plausible(copied, lesson.sizes[lesson.positive])]
         boxes = np.concatenate([boxes, copied])
         repeats = np.concatenate([repeats, np.ones(len(copied), dtype=np.intp)])
     cell = CANDIDATE_CELL * np.tile(size, 2)
@@ -347,6 +347,18 @@ def continued(present: Array, low: float, high: float) -> Array:
     return np.concatenate([present, rhythm(present), mirrored_extents(present, low, high), surest])
 
 
-def _plausible(boxes: Array, sizes: Array) -> NDArray[np.bool_]:
+def plausible(boxes: Array, sizes: Array) -> NDArray[np.bool_]:
+    """Which boxes are not turned inside out, and no more than `LARGEST_STRETCH` times smaller or larger than examples.
+
+    Parameters
+    ----------
+    boxes : ndarray of shape (n, 4)
+    sizes : ndarray of shape (m, 2)
+        Of the examples.
+
+    Returns
+    -------
+    ndarray of shape (n,), bool
+    """
     size = boxes[:, 2:] - boxes[:, :2]
     return ((size > sizes.min(axis=0) / LARGEST_STRETCH) & (size < sizes.max(axis=0) * LARGEST_STRETCH)).all(axis=1)

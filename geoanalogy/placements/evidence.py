@@ -131,8 +131,7 @@ def single_evidence(
     like = like_parents(lesson, arrangement)
     size = np.log(boxes[:, 2:] - boxes[:, :2])
     taught_size = np.log(lesson.sizes[p])
-    covered, uncovered, touched = _overlaps(lesson, arrangement, boxes)
-    outside = arrangement.share_outside(boxes) - max(lesson.taught[i].outside for i in p)
+    covered, uncovered, touched, outside = excess(lesson, arrangement, boxes)
     rows = columns = np.zeros((n, 1))
     if len(present):
         rows, columns = interval_overlap(boxes, present, 1), interval_overlap(boxes, present, 0)
@@ -149,7 +148,7 @@ def single_evidence(
         "best anchor": (joint * rj).max(axis=1, initial=0.0),
         "anchors": joint @ rj / max(rj.sum(), 1e-9),
         "sure anchors": joint @ rj**2 / max((rj**2).sum(), 1e-9),
-        "missed anchor": ((1 - joint) * rj).max(axis=1, initial=0.0),
+        "missed anchor": missed_anchor(lesson, matches),
         "along x": x @ rx**2 / max((rx**2).sum(), 1e-9),
         "along y": y @ ry**2 / max((ry**2).sum(), 1e-9),
         "best along x": (x * rx).max(axis=1, initial=0.0),
@@ -166,7 +165,7 @@ def single_evidence(
         "covered": covered,
         "uncovered": uncovered,
         "touched": touched,
-        "outside": np.clip(outside, 0.0, 1.0),
+        "outside": outside,
         "row": rows.max(axis=1),
         "column": columns.max(axis=1),
         "row and column": np.minimum(rows.max(axis=1), columns.max(axis=1)),
@@ -268,6 +267,46 @@ def _beyond(size: Array, taught: Array) -> Array:
     """
     low, high = taught.min(axis=0), taught.max(axis=0)
     return np.clip(np.maximum(low - size, size - high) - (high - low), 0.0, None)
+
+
+def missed_anchor(lesson: Lesson, matches: dict[str, Match]) -> Array:
+    """How surely examples agree in a group of elements, and how little boxes agree with them in it: the worst group.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    matches : dict of str to Match
+        Of the boxes with all examples.
+
+    Returns
+    -------
+    ndarray of shape (n,)
+        Between 0 and 1.
+    """
+    missed = [
+        (1 - match.joint[:, lesson.positive].max(axis=1)) * lesson.reliability[key][2]
+        for key, match in matches.items()
+        if key != PARENT_BOX
+    ]
+    return np.max([np.zeros(len(matches[PARENT_BOX].joint)), *missed], axis=0)
+
+
+def excess(lesson: Lesson, arrangement: Arrangement, boxes: Array) -> tuple[Array, Array, Array, Array]:
+    """By how much boxes are covered, bare, touch elements and lie outside more than any positive example.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    arrangement : Arrangement
+    boxes : ndarray of shape (n, 4)
+
+    Returns
+    -------
+    covered, uncovered, touched, outside : ndarray of shape (n,)
+        The figures of `SINGLE`.
+    """
+    outside = arrangement.share_outside(boxes) - max(lesson.taught[i].outside for i in lesson.positive)
+    return *_overlaps(lesson, arrangement, boxes), np.clip(outside, 0.0, 1.0)
 
 
 def _overlaps(lesson: Lesson, arrangement: Arrangement, boxes: Array) -> tuple[Array, Array, Array]:

@@ -160,13 +160,29 @@ class Habits:
         """
         if not self.exact:
             return np.full(len(seen.boxes[PARENT_BOX]), np.nan)
-        best = np.zeros(len(seen.boxes[PARENT_BOX]))
+        return np.asarray(np.max(list(self.exactness(seen).values()), axis=0))
+
+    def exactness(self, seen: Signature) -> dict[str, Array]:
+        """`constructed`, by the group of the element.
+
+        Parameters
+        ----------
+        seen : Signature
+            Of n boxes.
+
+        Returns
+        -------
+        dict of str to ndarray of shape (n,)
+            For the groups of `exact`.
+        """
+        found = {}
         for key, exact in self.exact.items():
             if key not in seen.boxes:
+                found[key] = np.zeros(len(seen.boxes[PARENT_BOX]))
                 continue
             edges = seen.boxes[key][:, 0][:, :, [0, 2]]
             off = edges - self.of[key].middle
             off[..., 3] *= edges[..., 0] - edges[..., 1]
             agreement = np.nan_to_num(np.exp(-0.5 * (off / (HABIT_FLOOR * self.widths)) ** 2))
-            best = np.maximum(best, (exact * agreement).max(axis=3).min(axis=(1, 2)))
-        return best
+            found[key] = (exact * agreement).max(axis=3).min(axis=(1, 2))
+        return found

@@ -119,7 +119,7 @@ class PlacementModel:
         return run(self.placing(scene, threshold, include_examples), progress)
 
     def placing(
-        self, scene: Scene, threshold: float | None = None, include_examples: bool = False
+        self, scene: Scene, threshold: float | None = None, include_examples: bool = False, explained: bool = True
     ) -> Stepper[list[Placement]]:
         """`place` as a stepper: one step per parent.
 
@@ -128,6 +128,8 @@ class PlacementModel:
         scene : Scene
         threshold : float, optional
         include_examples : bool
+        explained : bool
+            Whether results say why they are where they are; a replay does not ask.
 
         Returns
         -------
@@ -141,10 +143,12 @@ class PlacementModel:
         found: list[Placement] = []
         for i, parent in enumerate(parents):
             yield i / len(parents), f"placing in {self.label or 'polygon'} {i + 1} of {len(parents)}"
-            found += self._place_in(scene, parent, least, include_examples)
+            found += self._place_in(scene, parent, least, include_examples, explained)
         return sorted(found, key=lambda p: -p.score)
 
-    def _place_in(self, scene: Scene, parent: Polygon, least: float, include_examples: bool) -> list[Placement]:
+    def _place_in(
+        self, scene: Scene, parent: Polygon, least: float, include_examples: bool, explained: bool
+    ) -> list[Placement]:
         found: list[Placement] = []
         frames = self.orientation.frames(parent)
         for frame in frames:
@@ -167,10 +171,7 @@ class PlacementModel:
             if least > 0:
                 still = without_overlaps(boxes, score[index], drawn, self.options.allow_overlaps)
                 index, boxes, similar = index[still], boxes[still], similar[still]
-            matches = self.lesson.match(
-                signature(arrangement, boxes, self.options.neighbours, self.lesson.labels, outlines=False)
-            )
-            why = reasons(self.lesson, self.label, matches)
+            why = self._reasons(arrangement, boxes) if explained else [()] * len(boxes)
             for i, box, alike, relations in zip(index, boxes, similar, why, strict=True):
                 like = self.lesson.positive[np.argmax(alike[self.lesson.positive])]
                 found.append(
@@ -185,6 +186,11 @@ class PlacementModel:
             if include_examples:
                 found += [Placement(t.rectangle, t.target, parent, 0.0) for t in shown if t.target >= max(least, 1e-6)]
         return _disjoint(found, self.options.allow_overlaps) if len(frames) > 1 and least > 0 else found
+
+    def _reasons(self, arrangement: Arrangement, boxes: Array) -> list[tuple[Relation, ...]]:
+        """Why boxes are where they are."""
+        seen = signature(arrangement, boxes, self.options.neighbours, self.lesson.labels, outlines=False)
+        return reasons(self.lesson, self.label, self.lesson.match(seen))
 
     def _survey(self, arrangement: Arrangement, positive: Array, drawn: Array) -> Survey:
         """The rated candidates of an arrangement; the last few are kept, so that another threshold costs no search."""

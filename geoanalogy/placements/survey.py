@@ -9,6 +9,7 @@ from .arrangement import Arrangement
 from .boxes import interval_overlap, overlap, union_overlap
 from .calibration import ABROAD, ALONE, AT_HOME, Judgement
 from .candidates import crossings, predictions, proposals
+from .construction import EQUALLY_ALIKE, construction, is_constructed
 from .evidence import Company, anchors_of, like_parents, single_evidence
 from .lesson import Lesson, Match
 from .one_each import copies, copy_evidence
@@ -22,8 +23,6 @@ Array = NDArray[np.float64]
 LOOKED_AT, GROWN = 300, 150
 #: Proposals near a result that are looked at to refine it.
 VARIANTS = 12
-#: Difference in similarity, a few times what float32 leaves of it, below which two boxes are alike.
-EQUALLY_ALIKE = 1e-4
 #: Overlap from which candidates are of the same place.
 SAME_PLACE = 0.6
 #: Overlap from which two candidates are the same.
@@ -50,16 +49,12 @@ class Survey:
     Attributes
     ----------
     boxes : ndarray of shape (n, 4)
-    company : Company
-        The candidates among each other.
     similarities, contrast : ndarray of shape (n, m)
         To every example; and by what tells examples and counter-examples apart.
-    single, among, settled : ndarray of shape (n, …)
-        Evidence of each candidate, among the others by similarity, and by certainty.
     certainty : ndarray of shape (n,)
         How surely each is meant, 0 to 1.
     predicted : ndarray of shape (p, 4)
-        All that elements predict; the candidates are those that differ.
+        All that elements predict; the candidates are those that differ. Nothing where they follow from a rule.
     repeats : ndarray of shape (p,), int
         How often each is predicted.
     chosen : int or None
@@ -67,16 +62,30 @@ class Survey:
     """
 
     boxes: Array
-    company: Company
     similarities: Array
     contrast: Array
-    single: Array
-    among: Array
-    settled: Array
     certainty: Array
     predicted: Array
     repeats: NDArray[np.intp]
     chosen: int | None = None
+
+
+@dataclass(frozen=True)
+class Grounds:
+    """What the certainty of searched candidates rests on.
+
+    Attributes
+    ----------
+    company : Company
+        The candidates among each other.
+    single, among, settled : ndarray of shape (n, …)
+        Evidence of each candidate, among the others by similarity, and by certainty.
+    """
+
+    company: Company
+    single: Array
+    among: Array
+    settled: Array
 
 
 def glance(
@@ -157,7 +166,7 @@ def _evidence(
 
 
 def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Array) -> Survey:
-    """Rated candidates of an arrangement.
+    """Rated candidates of an arrangement: what follows from a rule that all examples keep to, or else a search.
 
     Parameters
     ----------
@@ -171,6 +180,32 @@ def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
     Returns
     -------
     Survey
+    """
+    if is_alone(lesson, present) and is_constructed(lesson):
+        made = construction(lesson, arrangement)
+        if made is not None:
+            nothing = np.zeros((0, 4)), np.zeros(0, dtype=np.intp)
+            similar = made.similarities
+            return Survey(made.boxes, similar, similar, made.certainty, *nothing, 0 if len(made.boxes) else None)
+    return search(lesson, arrangement, present, shown)[0]
+
+
+def search(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Array) -> tuple[Survey, Grounds]:
+    """Rated candidates of an arrangement, from all that its elements predict.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    arrangement : Arrangement
+    present : ndarray of shape (m, 4)
+        Positive examples drawn here.
+    shown : ndarray of shape (k, 4)
+        All examples drawn here: no candidate repeats them.
+
+    Returns
+    -------
+    survey : Survey
+    grounds : Grounds
     """
     judge = judgement_of(lesson, present)
     predicted, repeats = predictions(lesson, arrangement)
@@ -208,7 +243,10 @@ def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
             # Nothing is exact about it: no single candidate is better than the middle of those that are likely.
             boxes[chosen] = middle
             similar[chosen] = look(lesson, arrangement, middle[None], present)[0][0]
-    return Survey(boxes, company, similar, contrast, single, among, settled, certainty, predicted, repeats, chosen)
+    return (
+        Survey(boxes, similar, contrast, certainty, predicted, repeats, chosen),
+        Grounds(company, single, among, settled),
+    )
 
 
 def more_certain(certainty: Array, value: Array) -> Array:
@@ -326,7 +364,7 @@ def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDAr
         To every example.
     """
     boxes, similar = seen.boxes[chosen].copy(), seen.similarities[chosen].copy()
-    if not len(chosen) or (seen.chosen is not None and not lesson.habits.exact):
+    if not len(chosen) or not len(seen.predicted) or (seen.chosen is not None and not lesson.habits.exact):
         return boxes, similar
     alike = union_overlap(boxes, seen.predicted)
     near = np.where(alike >= SAME, seen.repeats[None] + alike / 2, -1.0)
