@@ -4,8 +4,9 @@ Poses are moved onto maxima in small numbers per arrangement; what is evaluated 
 and one of the features that may answer there, so that a plan of rooms costs what its pairs cost.
 """
 
+import copy
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,7 @@ from ..relations.elements import Elements, ElementType, ranges
 from ..relations.sighting import Sighting
 from ..relations.table import Positional
 from .fields import FAR
-from .kernels import level_set, wrap
+from .kernels import WIDE_WIDTH, level_set, wrap
 from .matching import Answers
 from .query import is_length, reference, side, turning
 
@@ -73,14 +74,40 @@ class Batch:
         #: The number of each importance's arrangement.
         self.arrangement = np.array([targets.index(i.target) for i in importances])
         elements = Elements.joined([t.elements for t in targets])
-        self._parts = {}
+        self._parts: dict[ElementType, _Part] = {}
         for element in ElementType:
             asked = [(k, i.answers[element]) for k, i in enumerate(importances) if element in i.answers]
             if asked:
                 chosen = [(k, a.strongest(share) if share else a) for k, a in asked]
                 first = np.cumsum([0, *(t.elements.count(element) for t in targets[:-1])])
                 shift = [int(first[self.arrangement[k]]) for k, _ in chosen]
-                self._parts[element] = _Part(element, elements, importances, chosen, shift)
+                self._parts[element] = _Part.of(element, elements, importances, chosen, shift)
+
+    def near(self, which: Indices, position: Array, angle: Array, reach: float, turn: float) -> "Batch":
+        """What poses that hardly move any more can still meet: an importance a pose.
+
+        Parameters
+        ----------
+        which : ndarray of shape (m,), int
+            The number of each pose's importance.
+        position : ndarray of shape (m, 2)
+        angle : ndarray of shape (m,)
+        reach : float
+            How far they may move, in half-widths of level sets.
+        turn : float
+            How far they may turn, radians.
+
+        Returns
+        -------
+        Batch
+            Of `m` importances, without the pairs of features that contribute nothing there.
+        """
+        result = copy.copy(self)
+        result.unit = self.unit[which]
+        result.arrangement = self.arrangement[which]
+        rows = self.rows(which)
+        result._parts = {r.element: self._parts[r.element].among(r, r.near(position, angle, reach, turn)) for r in rows}
+        return result
 
     def rows(self, which: Indices) -> "list[Rows]":
         """What is compared for poses in given arrangements.
@@ -145,47 +172,112 @@ class Batch:
         return total / self.query.total if self.query.total else total
 
 
+@dataclass(frozen=True)
 class _Part:
-    """The answers of all importances for one type of element, one after another."""
+    """The answers of several importances, or poses, for one type of element, one after another.
 
-    def __init__(
-        self,
+    Attributes
+    ----------
+    entries, pairs, features : ndarray of shape (importances,), int
+        How many each has.
+    pair_start, feature_start : ndarray of int
+        Counted from the first entry, and the first pair, of their importance.
+    """
+
+    element: ElementType
+    elements: Elements
+    relations: tuple[Positional, ...]
+    entries: Indices
+    pairs: Indices
+    features: Indices
+    target: Indices
+    sample: Array
+    value: Array
+    weight: Array
+    turn: Array
+    inner: Bools
+    contact: Array
+    directed: Bools
+    accuracy: Array
+    pair_start: Indices
+    feature_start: Indices
+
+    @classmethod
+    def of(
+        cls,
         element: ElementType,
         elements: Elements,
         importances: "Sequence[Importance]",
         asked: Sequence[tuple[int, Answers]],
         shift: Sequence[int],
-    ) -> None:
-        self.element = element
-        self.elements = elements
+    ) -> "_Part":
+        """`asked`: numbers of importances, and what they ask for; `shift`: their arrangements' first element."""
         answers = [a for _, a in asked]
-        self.relations: tuple[Positional, ...] = answers[0].relations
+        relations = answers[0].relations
 
-        def per(count: str) -> tuple[Indices, Indices]:
-            """How many each importance has, and the first of them."""
+        def per(count: str) -> Indices:
             size = np.zeros(len(importances), dtype=np.intp)
             for k, a in asked:
                 size[k] = len(getattr(a, count))
-            return size, np.cumsum(size) - size
+            return size
 
-        self.entries, self.first_entry = per("target")
-        self.pairs, self.first_pair = per("pair_start")
-        self.features, self.first_feature = per("feature_start")
-        self.target = np.concatenate([a.target + s for a, s in zip(answers, shift, strict=True)])
-        samples = [importances[k].samples[a.sample] for k, a in asked]
-        self.sample = np.concatenate(samples)
-        lengths = np.array([is_length(r) for r in self.relations])[:, None]
+        lengths = np.array([is_length(r) for r in relations])[:, None]
         scaled = [np.where(lengths, importances[k].scale, 1.0) * a.value for k, a in asked]
-        self.value = np.concatenate(scaled, axis=1)
-        self.weight = np.concatenate([a.weight for a in answers], axis=1)
-        self.turn = np.concatenate([a.turn for a in answers], axis=1)
-        self.inner = np.concatenate([a.inner for a in answers])
-        self.contact = np.concatenate([a.contact for a in answers])
-        self.directed = np.concatenate([importances[k].directed(element) for k, _ in asked])
-        self.accuracy = np.concatenate([a.accuracy for a in answers])
-        # Counted from the first entry, and the first pair, of their importance.
-        self.pair_start = np.concatenate([a.pair_start for a in answers])
-        self.feature_start = np.concatenate([a.feature_start for a in answers])
+        return cls(
+            element=element,
+            elements=elements,
+            relations=relations,
+            entries=per("target"),
+            pairs=per("pair_start"),
+            features=per("feature_start"),
+            target=np.concatenate([a.target + s for a, s in zip(answers, shift, strict=True)]),
+            sample=np.concatenate([importances[k].samples[a.sample] for k, a in asked]),
+            value=np.concatenate(scaled, axis=1),
+            weight=np.concatenate([a.weight for a in answers], axis=1),
+            turn=np.concatenate([a.turn for a in answers], axis=1),
+            inner=np.concatenate([a.inner for a in answers]),
+            contact=np.concatenate([a.contact for a in answers]),
+            directed=np.concatenate([importances[k].directed(element) for k, _ in asked]),
+            accuracy=np.concatenate([a.accuracy for a in answers]),
+            pair_start=np.concatenate([a.pair_start for a in answers]),
+            feature_start=np.concatenate([a.feature_start for a in answers]),
+        )
+
+    def among(self, rows: "Rows", kept: Bools) -> "_Part":
+        """The same pose by pose, with some of the pairs of rows."""
+        entry = np.repeat(kept, rows.per_pair)
+        chosen = rows.entry[entry]
+        answering = np.add.reduceat(kept.astype(np.intp), rows.feature_start) if len(kept) else np.zeros(0, np.intp)
+        entries = np.bincount(rows.pose[entry], minlength=rows.poses)
+        pairs = np.bincount(rows.pose[rows.pair_start[kept]], minlength=rows.poses)
+        features = np.bincount(rows.pose[rows.pair_start[rows.feature_start[answering > 0]]], minlength=rows.poses)
+        return replace(
+            self,
+            entries=entries,
+            pairs=pairs,
+            features=features,
+            target=self.target[chosen],
+            sample=self.sample[chosen],
+            value=self.value[:, chosen],
+            weight=self.weight[:, chosen],
+            turn=self.turn[:, chosen],
+            inner=self.inner[chosen],
+            contact=self.contact[chosen],
+            directed=self.directed[chosen],
+            accuracy=rows.accuracy[kept],
+            pair_start=_starts(rows.per_pair[kept], entries, pairs),
+            feature_start=_starts(answering[answering > 0], pairs, features),
+        )
+
+
+def _first(size: Indices) -> Indices:
+    """Where neighbours of given sizes begin."""
+    return np.cumsum(size) - size
+
+
+def _starts(size: Indices, whole: Indices, parts: Indices) -> Indices:
+    """Where neighbours of given sizes begin, counted from where the whole that they are parts of begins."""
+    return _first(size) - np.repeat(_first(whole), parts)
 
 
 class Rows:
@@ -204,18 +296,18 @@ class Rows:
     def __init__(self, part: _Part, which: Indices, batch: Batch) -> None:
         self._part = part
         self._batch = batch
-        self._poses = len(which)
+        self.poses = len(which)
         entries = part.entries[which]
-        first_row = np.cumsum(entries) - entries
-        self.entry = ranges(part.first_entry[which], entries)
+        first_row = _first(entries)
+        self.entry = ranges(_first(part.entries)[which], entries)
         self.pose = np.repeat(np.arange(len(which)), entries)
         pairs = part.pairs[which]
-        pair = ranges(part.first_pair[which], pairs)
+        pair = ranges(_first(part.pairs)[which], pairs)
         self.pair_start = part.pair_start[pair] + np.repeat(first_row, pairs)
         self.accuracy = part.accuracy[pair]
         features = part.features[which]
-        first_pair = np.cumsum(pairs) - pairs
-        feature = ranges(part.first_feature[which], features)
+        first_pair = _first(pairs)
+        feature = ranges(_first(part.features)[which], features)
         self.feature_start = part.feature_start[feature] + np.repeat(first_pair, features)
         self._feature_pose = np.repeat(np.arange(len(which)), features)
         self.weight = part.weight[:, self.entry]
@@ -346,6 +438,31 @@ class Rows:
         kernel *= misses.allowed
         return kernel
 
+    def near(self, position: Array, angle: Array, reach: float, turn: float) -> Bools:
+        """The pairs of features that poses can meet without going far.
+
+        Parameters
+        ----------
+        position : ndarray of shape (m, 2)
+        angle : ndarray of shape (m,)
+        reach : float
+            How far they may move, in half-widths of level sets.
+        turn : float
+            How far they may turn, radians.
+
+        Returns
+        -------
+        ndarray of shape (pairs,), bool
+        """
+        if not len(self.entry):
+            return np.zeros(0, dtype=bool)
+        misses = self.misses(position, angle)
+        arm = np.hypot(*self._asked[0])
+        met = (np.abs(misses.place) < (WIDE_WIDTH + reach) * self.width + turn * arm).any(axis=0)
+        if self._part.elements.heading(self.element) is not None:  # the same everywhere
+            met &= (np.abs(misses.turn) < self._batch.query.options.direction_width + turn).any(axis=0)
+        return np.logical_or.reduceat(met, self.pair_start)
+
     def directional(self, misses: Misses) -> Array:
         """The directional level sets' kernel, to be multiplied with the positional one.
 
@@ -399,9 +516,7 @@ class Rows:
         -------
         ndarray of shape (m,)
         """
-        total = np.zeros(self._poses)
-        total += np.bincount(self._feature_pose, weights=best, minlength=self._poses)
-        return total
+        return np.bincount(self._feature_pose, weights=best, minlength=self.poses).astype(np.float64)
 
     def summed(self, rows: Array) -> Array:
         """Sums per pose of values per row.
@@ -414,7 +529,7 @@ class Rows:
         -------
         ndarray of shape (..., m)
         """
-        total = np.zeros((*rows.shape[:-1], self._poses))
+        total = np.zeros((*rows.shape[:-1], self.poses))
         if len(self._held):
             total[..., self._held] = np.add.reduceat(rows, self._first_row, axis=-1)
         return total

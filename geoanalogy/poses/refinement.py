@@ -28,6 +28,11 @@ KEPT = {0: (24, 0.25), 1: (20, 0.35), 2: (16, 0.4), 3: (12, 0.4)}
 #: Pairs of features that can contribute less than this share of the strongest one do not pull at poses.
 STRONG = 0.05
 
+#: How far poses are expected to move, in half-widths of level sets and of directions: at first, and once the last
+#: candidates have been dropped.
+SEARCHING = (6.0, 2.0)
+SETTLING = (1.0, 0.5)
+
 #: Candidates nearer than this, in half-widths of level sets, have come to the same maximum.
 SAME_MAXIMUM = 0.1
 
@@ -203,15 +208,17 @@ def _descend(batch: Batch, poses: Refined, iterations: range, rivals: _Rivals | 
     """
     best, best_step = poses, np.zeros((len(poses.which), 3))
     position, angle = poses.position, poses.angle
-    rows = batch.rows(poses.which)
+    near = _near(batch, poses, SETTLING if rivals is None else SEARCHING)
+    own = np.arange(len(angle))
+    rows = near.rows(own)
     for iteration in iterations:
-        value, step = _step(batch, rows, best.which, position, angle, MET * SHARPER**iteration)
+        value, step = _step(near, rows, own, position, angle, MET * SHARPER**iteration)
         better = value > best.value
         # A step too far is taken again from the best pose, half as long.
         fell = (value < FALL * best.value)[:, None]
         best = best.bettered(position, angle, value)
         # Far steps lead to other maxima, which have candidates of their own.
-        size = np.abs(step / batch.unit[best.which]).max(axis=1, keepdims=True)
+        size = np.abs(step / near.unit[own]).max(axis=1, keepdims=True)
         step = step * np.minimum(1.0, 2.0 * 0.8**iteration / np.maximum(size, 1e-12))
         if iteration > max(KEPT) and size.max() < SETTLED:
             break
@@ -223,7 +230,12 @@ def _descend(batch: Batch, poses: Refined, iterations: range, rivals: _Rivals | 
             kept = rivals.leading(best, *KEPT[iteration])
             if len(kept) < len(angle):
                 position, angle, best, best_step = position[kept], angle[kept], best.of(kept), best_step[kept]
-                rows = batch.rows(best.which)
+                own = own[kept]
+                rows = near.rows(own)
+            if iteration == max(KEPT):
+                near = _near(near, replace(best, which=own, position=position, angle=angle), SETTLING)
+                own = np.arange(len(angle))
+                rows = near.rows(own)
     return best
 
 
@@ -234,7 +246,7 @@ def _probe(batch: Batch, poses: Refined) -> Refined:
     leading = poses.of(lead)
     c, s = np.cos(leading.angle), np.sin(leading.angle)
     width = batch.unit[leading.which, :1]
-    rows = batch.rows(leading.which)
+    rows = _near(batch, leading, (max(PROBES), 0.0)).rows(np.arange(len(lead)))
     best = leading
     for way in (np.column_stack([c, s]), np.column_stack([-s, c])):
         for far in PROBES:
@@ -261,9 +273,9 @@ def _climb(batch: Batch, poses: Refined) -> Refined:
     lead = np.sort(table[value >= EQUALLY_GOOD * value[:, :1]])
     best = poses.of(lead)
     # All six ways at once: there are few poses, and a call costs about as much as a thousand rows.
-    rows = batch.rows(np.repeat(best.which, 6))
-    reach = FARTHEST_CLIMB * batch.unit[best.which]
     every = np.arange(len(lead))
+    rows = _near(batch, best, (CLIMBS * FARTHEST_CLIMB,) * 2).rows(np.repeat(every, 6))
+    reach = FARTHEST_CLIMB * batch.unit[best.which]
     for _ in range(CLIMBS):
         before = best.value
         c, s = np.cos(best.angle), np.sin(best.angle)
@@ -278,6 +290,12 @@ def _climb(batch: Batch, poses: Refined) -> Refined:
     position, angle, value = poses.position.copy(), poses.angle.copy(), poses.value.copy()
     position[lead], angle[lead], value[lead] = best.position, best.angle, best.value
     return Refined(poses.which, position, angle, value)
+
+
+def _near(batch: Batch, poses: Refined, reach: tuple[float, float]) -> Batch:
+    """What poses compare that move no further than `reach`, in half-widths of level sets and of directions."""
+    turn = reach[1] * batch.query.options.direction_width
+    return batch.near(poses.which, poses.position, poses.angle, reach[0], turn)
 
 
 def _step(
