@@ -5,7 +5,7 @@ from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty, St
 from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
 
 from ..geoanalogy.blender.overlay import Overlay
-from ..geoanalogy.blender.rectangle_drawing import Sketch, add_rectangles, grounds_to_draw_on
+from ..geoanalogy.blender.rectangle_drawing import Sketch, add_rectangles, sites_to_draw_on
 from ..geoanalogy.errors import InputError
 from .edit import Edit, needs_object_mode
 
@@ -45,7 +45,7 @@ class GEOANALOGY_OT_draw_rectangles(Edit, bpy.types.Operator):
             self.report({"ERROR"}, "rectangles are drawn in a 3D view; move the mouse over one")
             return {"CANCELLED"}
         try:
-            self._sketch = Sketch(grounds_to_draw_on(context))
+            self._sketch = Sketch(sites_to_draw_on(context))
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

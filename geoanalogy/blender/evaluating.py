@@ -243,7 +243,7 @@ def write_node(node: bpy.types.Node, evaluated: Sequence[tuple[Surroundings, Ite
     Returns
     -------
     int
-        How many results stand there.
+        How many objects stand there.
     """
     for key in (names.STALE, names.PROBLEM):
         node.pop(key, None)
@@ -259,7 +259,7 @@ def write_node(node: bpy.types.Node, evaluated: Sequence[tuple[Surroundings, Ite
     standing = [] if node.mute else in_order(node, [(around.plane, elements) for around, elements in evaluated])
     shown = write_results(evaluated[0][0].scene, node.name, standing, placed_by(node))
     node[names.COUNT] = shown + sum(not is_instance(e) for e, _ in standing)
-    return node[names.COUNT]
+    return shown
 
 
 def _touched(proposed: Any) -> int:

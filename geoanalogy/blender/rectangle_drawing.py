@@ -12,12 +12,14 @@ from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..geometry.rectangle import Rectangle
 from ..poses.pose import Pose
+from ..progress import run
 from . import names
+from .evaluating import after_steps, read_surroundings
 from .footprints import frame_of
-from .ground import Ground, read_grounds
 from .planes import Plane
-from .refresh import examples_of
-from .tree_store import tree_of
+from .sites import NEARER, Site, sites_of
+from .tree_editing import chosen_outputs
+from .tree_store import builds, ordered_nodes, tree_of
 
 Array = NDArray[np.float64]
 
@@ -49,8 +51,8 @@ class Face:
     polygon: Polygon
 
 
-def grounds_to_draw_on(context: bpy.types.Context) -> list[Ground]:
-    """What rectangles can be drawn on: everything labelled but what was drawn before.
+def sites_to_draw_on(context: bpy.types.Context) -> list[Site]:
+    """What rectangles can be drawn on: everything labelled but what was drawn before, and the surfaces of solids.
 
     Parameters
     ----------
@@ -58,25 +60,26 @@ def grounds_to_draw_on(context: bpy.types.Context) -> list[Ground]:
 
     Returns
     -------
-    list of Ground
+    list of Site
+        Planes of the scene, then surfaces that come in to the next operation.
 
     Raises
     ------
     InputError
         Where nothing is labelled.
     """
-    context.view_layer.update()
-    drawn = {item.name for item in context.scene.objects if names.DRAWN in item}
-    without = examples_of(tree_of(context.scene)) | drawn
-    return read_grounds(context.scene, context.evaluated_depsgraph_get(), without)
+    tree = tree_of(context.scene)
+    every = read_surroundings(context, [item for item in context.scene.objects if names.DRAWN in item])
+    links = chosen_outputs(tree, ordered_nodes(tree)) if builds(tree) else ()
+    return sites_of(every, run(after_steps(every, links)))
 
 
-def face_in_sight(grounds: Iterable[Ground], origin: ArrayLike, direction: ArrayLike) -> tuple[Face, Array] | None:
+def face_in_sight(sites: Iterable[Site], origin: ArrayLike, direction: ArrayLike) -> tuple[Face, Array] | None:
     """The first face that a line of sight meets, and where.
 
     Parameters
     ----------
-    grounds : iterable of Ground
+    sites : iterable of Site
     origin, direction : array_like of shape (3,)
         Of the line, in the world.
 
@@ -86,14 +89,14 @@ def face_in_sight(grounds: Iterable[Ground], origin: ArrayLike, direction: Array
         None where it meets no labelled face.
     """
     best, nearest = None, np.inf
-    for ground in grounds:
-        away = sight_on(ground.plane, origin, direction)
+    for site in sites:
+        away = sight_on(site.plane, origin, direction)
         if away is None or away >= nearest:
             continue
         point = np.asarray(origin, float) + away * np.asarray(direction, float)
-        polygon = ground.scene.parent_of(ground.plane.to_plane([point])[0, :2])
+        polygon = site.polygon_at(point)
         if polygon is not None:
-            best, nearest = (Face(ground.plane, polygon), point), away
+            best, nearest = (Face(site.plane, polygon), point), away
     return best
 
 
@@ -118,12 +121,12 @@ def sight_on(plane: Plane, origin: ArrayLike, direction: ArrayLike) -> float | N
     return away if away > 0 else None
 
 
-def face_at(grounds: Iterable[Ground], *points: ArrayLike) -> Face:
+def face_at(sites: Iterable[Site], *points: ArrayLike) -> Face:
     """The face that the first of some points lies on that lies on any.
 
     Parameters
     ----------
-    grounds : iterable of Ground
+    sites : iterable of Site
     *points : array_like of shape (3,)
         In the world.
 
@@ -138,11 +141,12 @@ def face_at(grounds: Iterable[Ground], *points: ArrayLike) -> Face:
     """
     for point in points:
         found = []
-        for ground in grounds:
-            x, y, height = ground.plane.to_plane([point])[0]
-            polygon = ground.scene.parent_of((x, y))
-            if polygon is not None and abs(height) <= ON_FACE * polygon.size:
-                found.append((abs(height), len(found), Face(ground.plane, polygon)))
+        for site in sites:
+            polygon = site.polygon_at(point)
+            height = abs(float(site.plane.to_plane([point])[0, 2]))
+            if polygon is not None and height <= ON_FACE * polygon.size:
+                # Of a floor and the ground below it, the ground comes first.
+                found.append((height // NEARER, len(found), Face(site.plane, polygon)))
         if found:
             return min(found)[2]
     raise InputError("there is no labelled face here; label the face in step 1, then draw on it")
@@ -220,11 +224,11 @@ def add_rectangles(
         raise InputError("no rectangle was drawn; drag one across a labelled face")
     if not label.strip():
         raise InputError("the rectangles have no label; say what they are before drawing them")
-    grounds = grounds_to_draw_on(context)
+    sites = sites_to_draw_on(context)
     wanted = []
     for start, end, target in corners:
         # A corner that was set on the very edge of a face may lie a rounding beyond it.
-        face = face_at(grounds, start, np.add(start, end) / 2, end)
+        face = face_at(sites, start, np.add(start, end) / 2, end)
         wanted.append((rectangle_between(face, start, end), face.plane, target))
     holder = _collection(context.scene)
     for item in context.selected_objects:
@@ -279,7 +283,7 @@ class Sketch:
 
     Attributes
     ----------
-    grounds : list of Ground
+    sites : list of Site
     done : list of (start, end, target)
         Finished rectangles, as `add_rectangles` takes them.
     outlines : list of (ndarray of shape (4, 3), float)
@@ -288,7 +292,7 @@ class Sketch:
         How much the rectangles are wanted that are drawn next.
     """
 
-    grounds: list[Ground]
+    sites: list[Site]
     target: float = 1.0
     done: list[tuple[tuple[float, ...], tuple[float, ...], float]] = field(default_factory=list)
     outlines: list[tuple[Array, float]] = field(default_factory=list)
@@ -313,7 +317,7 @@ class Sketch:
         bool
             False where it meets none.
         """
-        found = face_in_sight(self.grounds, origin, direction)
+        found = face_in_sight(self.sites, origin, direction)
         if found is None:
             return False
         self._face, self._start = found

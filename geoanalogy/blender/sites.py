@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..geometry.surface import GROUND, Surface
 from ..operations.element import Element
@@ -81,6 +82,25 @@ class Site:
             return layout.scene
         standing = tuple(layout.elements_on(self.surface))
         return OnSurface(layout.ground, surface=self.surface, standing=standing).scene
+
+    def polygon_at(self, point: ArrayLike) -> Polygon | None:
+        """The smallest polygon there that a point lies over or under.
+
+        Parameters
+        ----------
+        point : array_like of shape (3,)
+            In the world.
+
+        Returns
+        -------
+        Polygon or None
+        """
+        x, y = self.plane.to_plane([point])[0, :2]
+        if self.surface is not None:
+            low, high = np.reshape(self.surface.polygon.bounds, (2, 2))
+            if not ((low <= (x, y)).all() and ((x, y) <= high).all()):
+                return None
+        return self.scene.parent_of((x, y))
 
     def gap_to(self, point: ArrayLike) -> float | None:
         """Distance of a point from the surface.

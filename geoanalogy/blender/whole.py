@@ -40,7 +40,7 @@ class Shown:
     @property
     def text(self) -> str:
         """What to tell the user."""
-        parts = [f"{self.objects} objects placed"]
+        parts = [f"{self.objects} objects"]
         if self.masses:
             parts.append(f"{self.masses} solids and outlines")
         return "; ".join([", ".join(parts), *self.problems[:1]]) + (

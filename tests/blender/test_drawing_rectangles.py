@@ -37,7 +37,7 @@ def corners(where, item):
 def test_a_rectangle_is_drawn_where_the_mouse_goes(direction, kind):
     where = frame(direction, at=(1.0, 2.0, 3.0))
     wall("house", where, kind=kind)
-    sketch = drawing().Sketch(drawing().grounds_to_draw_on(bpy.context))
+    sketch = drawing().Sketch(drawing().sites_to_draw_on(bpy.context))
     assert draw(sketch, where, (4.1, 3.2), (2.5, 5.9))
     (start, end, target) = sketch.done[0]
     assert target == 1.0
@@ -55,7 +55,7 @@ def test_the_nearest_face_is_drawn_on_and_the_smallest_there_gives_the_direction
     wall("far", far)
     turned = near @ Matrix.Translation((6.0, 3.0, 0.0)) @ Matrix.Rotation(0.3, 4, "Z")
     outline("sign", ring(0, 0, 2.0, 1.0), "sign", turned)
-    grounds = drawing().grounds_to_draw_on(bpy.context)
+    grounds = drawing().sites_to_draw_on(bpy.context)
     face, point = drawing().face_in_sight(grounds, *sight(near, 1.0, 5.0))
     assert face.polygon.id == "near"
     assert tuple(near.inverted() @ Vector(point)) == pytest.approx((1.0, 5.0, 0.0), abs=1e-5)
@@ -68,7 +68,7 @@ def test_the_nearest_face_is_drawn_on_and_the_smallest_there_gives_the_direction
 def test_a_tall_wall_is_as_wide_as_it_is_level():
     where = frame("askew")
     outline("tower", ring(0, 0, 2.0, 30.0), "facade", where)
-    face, point = drawing().face_in_sight(drawing().grounds_to_draw_on(bpy.context), *sight(where, 0.5, 3.0))
+    face, point = drawing().face_in_sight(drawing().sites_to_draw_on(bpy.context), *sight(where, 0.5, 3.0))
     rectangle = drawing().rectangle_between(face, point, where @ Vector((1.5, 3.3, 0.0)))
     assert (rectangle.width, rectangle.height) == pytest.approx((1.0, 0.3), abs=1e-5)
 
@@ -76,7 +76,7 @@ def test_a_tall_wall_is_as_wide_as_it_is_level():
 def test_nothing_is_met_beside_and_behind_and_edge_on():
     where = frame("south")
     wall("house", where)
-    grounds = drawing().grounds_to_draw_on(bpy.context)
+    grounds = drawing().sites_to_draw_on(bpy.context)
     eye, direction = sight(where, 1.0, 5.0)
     assert drawing().face_in_sight(grounds, eye, -direction) is None
     assert drawing().face_in_sight(grounds, *sight(where, 20.0, 5.0)) is None
@@ -89,7 +89,7 @@ def test_nothing_is_met_beside_and_behind_and_edge_on():
 def test_a_click_is_no_rectangle_and_the_last_one_can_be_taken_back():
     where = frame("east")
     wall("house", where)
-    sketch = drawing().Sketch(drawing().grounds_to_draw_on(bpy.context))
+    sketch = drawing().Sketch(drawing().sites_to_draw_on(bpy.context))
     before = everything()
     assert not draw(sketch, where, (1.0, 5.0), (1.0, 5.0))
     assert draw(sketch, where, (1.0, 5.0), (2.0, 5.5))
@@ -111,7 +111,7 @@ def test_a_click_is_no_rectangle_and_the_last_one_can_be_taken_back():
 def test_a_rectangle_that_is_dragged_beyond_its_face_goes_on_in_its_plane():
     where = frame("askew")
     wall("house", where)
-    sketch = drawing().Sketch(drawing().grounds_to_draw_on(bpy.context))
+    sketch = drawing().Sketch(drawing().sites_to_draw_on(bpy.context))
     sketch.press(*sight(where, 8.0, 5.0))
     sketch.move(*sight(where, 11.0, 7.0))
     ring_, rectangle = sketch.current()
@@ -124,7 +124,7 @@ def test_what_was_drawn_before_is_no_face():
     wall("house", where)
     ends = where @ Vector((1, 5, 0)), where @ Vector((2, 6, 0))
     drawing().add_rectangles(bpy.context, [(*ends, 1.0)], "example")
-    face = drawing().face_at(drawing().grounds_to_draw_on(bpy.context), where @ Vector((1.5, 5.5, 0.0)))
+    face = drawing().face_at(drawing().sites_to_draw_on(bpy.context), where @ Vector((1.5, 5.5, 0.0)))
     assert face.polygon.id == "house"
 
 

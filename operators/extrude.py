@@ -1,0 +1,92 @@
+"""Extrude everything of a label."""
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, StringProperty
+
+from ..geoanalogy.blender.building import extrusion_of, label_here, operation_steps
+from ..geoanalogy.geometry.extrusion import FaceLabels
+from ..geoanalogy.geometry.roof import Roof
+from .edit import LongEdit, needs_object_mode
+
+ROOFS = [
+    ("flat", "Flat", "A flat cap"),
+    ("hip", "Hip Roof", "A roof that slopes to all sides"),
+    ("gable", "Gable Roof", "A roof with gables over the short sides"),
+    ("mansard", "Mansard Roof", "A roof whose lower faces are steeper"),
+]
+
+#: Faces of an extruded solid, as the engine names them, and what they are.
+FACES = {
+    "side": "Sides",
+    "top": "The flat cap",
+    "bottom": "What lies on the surface that is extruded from",
+    "roof": "Faces of the roof",
+    "gable": "Walls under the roof",
+}
+
+
+class GEOANALOGY_OT_extrude(LongEdit, bpy.types.Operator):
+    """Extrude everything of a label off its surface; the faces become surfaces that operations can work on"""
+
+    bl_idname = "geoanalogy.extrude"
+    bl_label = "Extrude"
+
+    label: StringProperty(name="Label", description="Of what is extruded; empty: that of the active object")
+    height: FloatProperty(name="Height", default=3.0, subtype="DISTANCE")
+    factor: FloatVectorProperty(
+        name="Random Factor", description="Least and greatest multiplier of the height", size=2, default=(1.0, 1.0)
+    )
+    inwards: BoolProperty(name="Inwards", description="Below the surface, for what will be subtracted from it")
+    roof: EnumProperty(name="Roof", items=ROOFS)
+    pitch: FloatProperty(name="Pitch", default=Roof().pitch, min=0.02, max=1.5, subtype="ANGLE")
+    overhang: FloatProperty(name="Overhang", min=0.0, subtype="DISTANCE")
+    walls: FloatProperty(
+        name="Walls", description="Thickness of the walls of a room that is open above; 0: a full body", min=0.0
+    )
+    side: StringProperty(name="Sides", description=FACES["side"], default=FaceLabels().side)
+    top: StringProperty(name="Top", description=FACES["top"], default=FaceLabels().top)
+    bottom: StringProperty(name="Bottom", description=FACES["bottom"], default=FaceLabels().bottom)
+    roof_label: StringProperty(name="Roof Faces", description=FACES["roof"], default=FaceLabels().roof)
+    gable: StringProperty(name="Gables", description=FACES["gable"], default=FaceLabels().gable)
+
+    @classmethod
+    def poll(cls, context):
+        return needs_object_mode(cls, context)
+
+    def steps(self, context):
+        """Extrude, show and record."""
+        roof = Roof(self.roof, round(self.pitch, 6), overhang=round(self.overhang, 6))
+        faces = FaceLabels(side=self.side, top=self.top, bottom=self.bottom, roof=self.roof_label, gable=self.gable)
+        operation = extrusion_of(
+            label_here(context, self.label),
+            round(self.height, 6),
+            (round(self.factor[0], 6), round(self.factor[1], 6)),
+            inwards=self.inwards,
+            roof=roof,
+            walls=round(self.walls, 6),
+            faces=faces,
+        )
+        _, shown = yield from operation_steps(context, operation)
+        return shown.text
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        for name in ("label", "height", "factor", "inwards", "walls", "roof"):
+            layout.prop(self, name)
+        if self.roof != "flat":
+            layout.prop(self, "pitch")
+            layout.prop(self, "overhang")
+        layout.separator()
+        for name in ("side", "bottom", *(("top",) if self.roof == "flat" else ("roof_label", "gable"))):
+            layout.prop(self, name)
+
+
+def register():
+    """Register the operator."""
+    bpy.utils.register_class(GEOANALOGY_OT_extrude)
+
+
+def unregister():
+    """Unregister it."""
+    bpy.utils.unregister_class(GEOANALOGY_OT_extrude)

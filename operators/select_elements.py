@@ -1,0 +1,55 @@
+"""Divide what is of a label among branches of the tree."""
+
+import bpy
+from bpy.props import EnumProperty, IntProperty, StringProperty
+
+from ..geoanalogy.blender import names
+from ..geoanalogy.blender.building import label_here, operation_steps, weights_of
+from ..geoanalogy.operations.selection import Selection
+from .edit import LongEdit, needs_object_mode
+
+WITHIN = [
+    ("each", "Each by Itself", "Each draws its own set"),
+    (
+        "parent",
+        "Within the Parent",
+        "Those of one parent are divided so that the shares hold there as well as they can",
+    ),
+]
+
+
+class GEOANALOGY_OT_select_elements(LongEdit, bpy.types.Operator):
+    """Divide everything of a label among sets at random; operations on one set leave the others alone"""
+
+    bl_idname = "geoanalogy.select_elements"
+    bl_label = "Select"
+
+    label: StringProperty(name="Label", description="Of what is divided; empty: that of the active object")
+    weights: StringProperty(
+        name="Weights",
+        description="One number per set, with commas between them; one alone below 1: the share that is chosen",
+        default="1, 1",
+    )
+    within: EnumProperty(name="Divide", items=WITHIN)
+    seed: IntProperty(name="Seed", description="For another division", min=0)
+
+    @classmethod
+    def poll(cls, context):
+        return needs_object_mode(cls, context)
+
+    def steps(self, context):
+        """Divide and record."""
+        label, weights = label_here(context, self.label), weights_of(self.weights)
+        operation = Selection(label=label, weights=weights, within=self.within, seed=self.seed)
+        node, _ = yield from operation_steps(context, operation)
+        return f"{node[names.COUNT]} divided among {len(weights)} sets"
+
+
+def register():
+    """Register the operator."""
+    bpy.utils.register_class(GEOANALOGY_OT_select_elements)
+
+
+def unregister():
+    """Unregister it."""
+    bpy.utils.unregister_class(GEOANALOGY_OT_select_elements)
