@@ -1,7 +1,6 @@
 """Merging and subtracting solids (section 5.6)."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -10,7 +9,7 @@ from numpy.typing import NDArray
 from ..errors import InputError
 from ..tolerances import COORDINATE_GRID, PARALLEL_AXES
 from .frame import SPACE, Frame
-from .solid import Solid
+from .solid import Face, Solid
 
 if TYPE_CHECKING:
     # Scenes without solids need no library for them.
@@ -56,7 +55,7 @@ def combined(first: Solid, others: Sequence[tuple[Solid, Frame]], kind: Kind, pl
     for solid, frame in others:
         index = []
         for one in solid.faces:
-            face = replace(one, frame=one.frame.inside(frame))
+            face = Face(one.name, one.label, one.frame.inside(frame), one.domain)
             face = face.flipped if kind == "subtract" else face
             same = planes.setdefault(face.plane, len(faces)) if kind == "merge" else len(faces)
             if same == len(faces):

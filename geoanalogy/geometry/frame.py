@@ -43,7 +43,12 @@ class Frame:
     @cached_property
     def axes(self) -> Array:
         """x, y and the normal as rows, shape (3, 3)."""
-        return np.array([self.x, self.y, _cross(self.x, self.y)])
+        return np.array([self.x, self.y, self._across])
+
+    @cached_property
+    def _across(self) -> Triple:
+        """The normal as plain numbers: single vectors are turned faster without arrays."""
+        return _cross(self.x, self.y)
 
     @property
     def normal(self) -> Array:
@@ -98,8 +103,12 @@ class Frame:
         -------
         Frame
         """
-        x, y = np.array([self.x, self.y]) @ outer.axes
-        return Frame.of(outer.to_space([self.origin])[0], x, y)
+        across = outer._across
+        x, y, z = _turned(self.origin, outer.x, outer.y, across)
+        u, v, w = outer.origin
+        return Frame(
+            (x + u, y + v, z + w), _turned(self.x, outer.x, outer.y, across), _turned(self.y, outer.x, outer.y, across)
+        )
 
     def seen_from(self, outer: "Frame") -> "Frame":
         """The frame in the coordinates of another one: the inverse of `inside`.
@@ -112,8 +121,9 @@ class Frame:
         -------
         Frame
         """
-        x, y = np.array([self.x, self.y]) @ outer.axes.T
-        return Frame.of(outer.to_plane([self.origin])[0], x, y)
+        (x, y, z), (u, v, w), across = self.origin, outer.origin, outer._across
+        rows = tuple(zip(outer.x, outer.y, across, strict=True))
+        return Frame(_turned((x - u, y - v, z - w), *rows), _turned(self.x, *rows), _turned(self.y, *rows))
 
     def moved(self, x: float, y: float, angle: float = 0.0) -> "Frame":
         """The frame with its origin elsewhere in its plane, turned.
@@ -159,6 +169,12 @@ class Frame:
         """The plane seen from behind: x the other way."""
         x, y, z = self.x
         return Frame(self.origin, (-x, -y, -z), self.y)
+
+
+def _turned(v: Triple, x: Triple, y: Triple, z: Triple) -> Triple:
+    """The vector with given coordinates along three axes."""
+    a, b, c = v
+    return a * x[0] + b * y[0] + c * z[0], a * x[1] + b * y[1] + c * z[1], a * x[2] + b * y[2] + c * z[2]
 
 
 def _cross(a: Triple, b: Triple) -> Triple:

@@ -97,6 +97,6 @@ def border(triangles: NDArray[np.intp], points: Array) -> list[list[int]]:
     -------
     list of list of int
     """
-    edges = zip(triangles.ravel().tolist(), np.roll(triangles, -1, axis=1).ravel().tolist(), strict=True)
+    edges = zip(triangles.ravel().tolist(), triangles[:, [1, 2, 0]].ravel().tolist(), strict=True)
     found = linked_loops(uncancelled((a, b, 0) for a, b in edges), points)
     return [[vertex for vertex, _ in loop] for loop in found]

@@ -31,8 +31,9 @@ def signed_area(ring: NDArray[np.float64]) -> float:
     >>> signed_area(np.array([(0, 0), (2, 0), (2, 1), (0, 1)], float))
     2.0
     """
-    x, y = (ring - ring[0]).T  # near the origin: no cancellation at large coordinates
-    return float(0.5 * (np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))))
+    # Near the origin there is no cancellation at large coordinates, and the edges at the first vertex add nothing.
+    x, y = (ring - ring[0]).T
+    return float(0.5 * (np.dot(x[:-1], y[1:]) - np.dot(y[:-1], x[1:])))
 
 
 def clean_ring(points: ArrayLike, name: str) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
@@ -83,8 +84,8 @@ def clean_ring(points: ArrayLike, name: str) -> tuple[NDArray[np.float64], NDArr
     area = signed_area(ring)
     if abs(area) <= ZERO_LENGTH * extent * extent:
         raise InputError(f"{name} has no area; give a ring that encloses one")
-    outline = shapely.Polygon(ring - ring[0])
-    if not outline.is_valid:
+    outline = None if _is_convex_quadrangle(ring) else shapely.Polygon(ring - ring[0])
+    if outline is not None and not outline.is_valid:
         where = shapely.is_valid_reason(outline).partition("[")
         x, y = (float(v) for v in where[2].rstrip("]").split()) if where[2] else (0.0, 0.0)
         place = f"x {x + ring[0, 0]:.6g}, y {y + ring[0, 1]:.6g}"
@@ -94,11 +95,26 @@ def clean_ring(points: ArrayLike, name: str) -> tuple[NDArray[np.float64], NDArr
     return np.roll(ring[::-1], 1, axis=0), edges[::-1].copy()
 
 
+def _is_convex_quadrangle(ring: NDArray[np.float64]) -> bool:
+    """Whether a ring has four vertices that all turn the same way: it cannot cross itself then."""
+    if len(ring) != 4:
+        return False
+    (ax, ay), (bx, by), (cx, cy), (dx, dy) = ring.tolist()
+    turns = (
+        (bx - ax) * (cy - by) - (by - ay) * (cx - bx),
+        (cx - bx) * (dy - cy) - (cy - by) * (dx - cx),
+        (dx - cx) * (ay - dy) - (dy - cy) * (ax - dx),
+        (ax - dx) * (by - ay) - (ay - dy) * (bx - ax),
+    )
+    return min(turns) > 0.0 or max(turns) < 0.0
+
+
 def _distinct(ring: NDArray[np.float64], shortest: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Indices of the vertices that stay when coincident neighbours are merged, and of the edges that leave them."""
     kept = edges = np.arange(len(ring))
     while len(kept) > 1:
-        gaps = np.abs(np.roll(ring[kept], -1, axis=0) - ring[kept]).max(axis=1)
+        here = ring[kept]
+        gaps = np.abs(np.concatenate([here[1:], here[:1]]) - here).max(axis=1)
         long = np.flatnonzero(gaps > shortest)
         if len(long) == len(kept):
             break

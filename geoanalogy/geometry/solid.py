@@ -47,9 +47,45 @@ class Face:
     @cached_property
     def plane(self) -> tuple[object, ...]:
         """What faces of one label in one plane have in common; those that keep their outlines stay apart."""
-        normal = self.frame.normal
-        place = np.round([*normal, float(normal @ self.frame.origin)], COPLANAR) + 0.0
-        return (self.label, self.domain is None or self.name, *place.tolist())
+        (a, b, c), (x, y, z) = self.frame.normal.tolist(), self.frame.origin
+        place = (round(v, COPLANAR) + 0.0 for v in (a, b, c, a * x + b * y + c * z))
+        return (self.label, self.domain is None or self.name, *place)
+
+    @cached_property
+    def own_surfaces(self) -> tuple[tuple[str, Frame, Polygon], ...]:
+        """`surfaces` of the domain, which stay the same whatever happens to the solid."""
+        assert self.domain is not None
+        return self.surfaces([shapely.Polygon(self.domain[0], self.domain[1:])])
+
+    def surfaces(self, parts: Iterable[shapely.Polygon]) -> tuple[tuple[str, Frame, Polygon], ...]:
+        """The surfaces of the connected parts of the face: names, frames and outlines, in the solid's coordinates.
+
+        Parameters
+        ----------
+        parts : iterable of shapely.Polygon
+            In the face's frame.
+
+        Returns
+        -------
+        tuple of (str, Frame, Polygon)
+            See `Solid.surfaces_of`.
+        """
+        found = []
+        for i, part in enumerate(parts):
+            x, y = part.bounds[:2]
+            # On a grid, equal surfaces have identical outlines; collinear vertices are no corners of a surface.
+            plain = shapely.simplify(shapely.affinity.translate(part, -x, -y), SURFACE_GRID)
+            valid = shapely.get_parts(shapely.set_precision(plain, SURFACE_GRID))
+            if not len(valid):
+                continue
+            plain = shapely.orient_polygons(max(valid, key=shapely.area))
+            rings = [
+                _from_least(np.round(shapely.get_coordinates(r)[:-1], 6)) for r in (plain.exterior, *plain.interiors)
+            ]
+            name = self.name if i == 0 else f"{self.name}#{i + 1}"
+            polygon = Polygon(rings[0], self.label, name, rings[1:], orientation=0.0)
+            found.append((name, self.frame.moved(x, y), polygon))
+        return tuple(found)
 
     @property
     def flipped(self) -> "Face":
@@ -106,7 +142,7 @@ class Solid:
     def is_closed(self) -> bool:
         """Whether every edge joins two triangles that run along it in opposite directions: watertight, manifold."""
         a = self.triangles.ravel()
-        b = np.roll(self.triangles, -1, axis=1).ravel()
+        b = self.triangles[:, [1, 2, 0]].ravel()
         n = len(self.vertices)
         forth, back = np.sort(a * n + b), np.sort(b * n + a)
         return bool(len(forth) and (a != b).all() and (np.diff(forth) > 0).all() and (forth == back).all())
@@ -188,27 +224,7 @@ class Solid:
         """
         if face not in self._surfaces:
             one = self.faces[face]
-            if one.domain is not None:
-                parts = [shapely.Polygon(one.domain[0], one.domain[1:])]
-            else:
-                parts = self.shapes(face)
-            found = []
-            for i, part in enumerate(parts):
-                x, y = part.bounds[:2]
-                # On a grid, equal surfaces have identical outlines; collinear vertices are no corners of a surface.
-                plain = shapely.simplify(shapely.affinity.translate(part, -x, -y), SURFACE_GRID)
-                valid = shapely.get_parts(shapely.set_precision(plain, SURFACE_GRID))
-                if not len(valid):
-                    continue
-                plain = shapely.orient_polygons(max(valid, key=shapely.area))
-                rings = [
-                    _from_least(np.round(shapely.get_coordinates(r)[:-1], 6))
-                    for r in (plain.exterior, *plain.interiors)
-                ]
-                name = one.name if i == 0 else f"{one.name}#{i + 1}"
-                polygon = Polygon(rings[0], one.label, name, rings[1:], orientation=0.0)
-                found.append((name, one.frame.moved(x, y), polygon))
-            self._surfaces[face] = tuple(found)
+            self._surfaces[face] = one.own_surfaces if one.domain is not None else one.surfaces(self.shapes(face))
         return self._surfaces[face]
 
     def surfaces(self, owner: str, frame: Frame, faces: Iterable[int] | None = None) -> list[Surface]:
@@ -269,7 +285,8 @@ class Solid:
 
     def renamed(self, prefix: str) -> "Solid":
         """The solid with a prefix before the names of its faces."""
-        return replace(self, faces=tuple(replace(face, name=f"{prefix}:{face.name}") for face in self.faces))
+        faces = (Face(f"{prefix}:{face.name}", face.label, face.frame, face.domain) for face in self.faces)
+        return Solid(self.vertices, self.triangles, self.face, tuple(faces))
 
 
 def _from_least(ring: Array) -> Array:

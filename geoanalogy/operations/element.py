@@ -1,7 +1,7 @@
 """Elements: what an operations tree places (section 5.6)."""
 
 from copy import copy
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -18,6 +18,9 @@ from ..poses.pose import Pose
 from .changes import Change
 
 Ring = tuple[tuple[float, float], ...]
+
+#: Digits of the coordinates of outlines in their own frames: rounding apart, equal elements have equal outlines.
+DIGITS = 9
 
 
 @dataclass(frozen=True)
@@ -90,7 +93,14 @@ class Element:
     absorbed_by: str = ""
     twin: "Element | None" = field(default=None, compare=False, repr=False)
 
-    @property
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash((self.node, self.key, self.label, self.surface, self.pose, self.solid))
+
+    @cached_property
     def id(self) -> str:
         """Its name among all elements and polygons: the node's and its key."""
         return f"{self.node}/{self.key}"
@@ -119,6 +129,18 @@ class Element:
         return None if ring is None else Polygon(ring, label=self.label, id=self.id)
 
     @cached_property
+    def outline(self) -> Polygon | None:
+        """The polygon in the pose's own frame, which equal elements share; None for a point."""
+        if self.twin is not None:
+            return self.twin.outline
+        ring = self.ring
+        if ring is None:
+            return None
+        c, s = np.cos(self.pose.angle), np.sin(self.pose.angle)
+        own = (ring - self.pose.position) @ np.array([[c, -s], [s, c]])
+        return Polygon(np.round(own, DIGITS) + 0.0, self.label)
+
+    @cached_property
     def place(self) -> Frame:
         """The pose as a frame of space: origin at its position, x along its direction, normal out of the surface."""
         return self.frame.moved(*self.pose.position, self.pose.angle)
@@ -135,7 +157,9 @@ class Element:
         -------
         Element
         """
-        made = replace(self, **values)
+        made = object.__new__(type(self))  # some thousands an operation: `replace` would check what is known
+        made.__dict__.update({name: self.__dict__[name] for name in self.__dataclass_fields__})
+        made.__dict__.update(values)
         polygon = self.__dict__.get("polygon")
         if polygon is not None and made.id != self.id:
             polygon = copy(polygon)

@@ -95,7 +95,7 @@ class Evaluations:
             Returns what the operation's `propose` returned; of one that places, on the ground and on all surfaces.
         """
         own_seed = node_seed(seed, node.id)
-        name = (node.id, own_seed if node.operation.random else None, node.operation.content(layout))
+        name = Known((node.id, own_seed if node.operation.random else None, node.operation.content(layout)))
         if name in self._kept:
             self.reused += 1
             self._kept.move_to_end(name)
@@ -117,7 +117,7 @@ class Evaluations:
         """What an operation places on a surface, which is the same on all that are equal up to a rigid motion."""
         there = self._unnamed(surface, layout.elements_on(surface), layout)
         own_seed = node_seed(seed, f"{node.id}\0{surface.id}")
-        name = (node.id, own_seed if operation.random else None, operation.content(there))
+        name = Known((node.id, own_seed if operation.random else None, operation.content(there)))
         if name in self._surfaces:
             self.surfaces_reused += 1
             self._surfaces.move_to_end(name)
@@ -131,7 +131,7 @@ class Evaluations:
     def _unnamed(self, surface: Surface, elements: Sequence[Element], layout: Layout) -> Layout:
         """A surface and what stands on it, without the surface's name and place."""
         twins = tuple(_twin(e, surface) for e in elements)
-        name = (surface.label, tuple(ring.tobytes() for ring in surface.polygon.rings), twins)
+        name = Known((surface.label, tuple(ring.tobytes() for ring in surface.polygon.rings), twins))
         if name not in self._layouts:
             outline = Polygon(
                 surface.polygon.points, surface.label, UNNAMED, surface.polygon.holes, None, surface.polygon.orientation
@@ -156,6 +156,27 @@ def _twin(element: Element, surface: Surface) -> Element:
         solid=None,
         absorbed_by="",
     )
+
+
+class Known:
+    """A name that is hashed once: what a node reads may be thousands of elements.
+
+    Parameters
+    ----------
+    name : hashable
+    """
+
+    __slots__ = ("_hash", "name")
+
+    def __init__(self, name: Hashable) -> None:
+        self.name = name
+        self._hash = hash(name)
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Known) and self._hash == other._hash and self.name == other.name
 
 
 def _keep(kept: OrderedDict[Hashable, Any], name: Hashable, value: Any, most: int) -> None:

@@ -16,7 +16,7 @@ from ..geometry.surface import GROUND, Surface
 from ..poses.pose import Pose
 from ..progress import Stepper
 from .chance import share
-from .element import Element
+from .element import DIGITS, Element
 from .keys import key_of
 from .layout import Layout
 from .operation import Operation
@@ -114,10 +114,7 @@ class Extrusion(Operation):
 
     def _targets(self, layout: Layout, node: str) -> Iterator[tuple[Element, Polygon, tuple[str, ...]]]:
         """What is extruded: elements, their outlines in their own frames, and the labels of the edges of these."""
-        for e in layout.visible:
-            if e.label == self.label and e.ring is not None and e.solid is None and not e.absorbed_by:
-                own = Polygon(np.round(_own(e.ring, e.pose), 9) + 0.0, self.label)
-                yield e, own, self._labels(own, e, layout)
+        yield from layout.derived(("extruded", self.label), lambda: self._standing(layout))
         extruded = {e.parent for e in layout.visible if e.node == node}
         for polygon in layout.scene.polygons if self.label else ():
             if polygon.label == self.label and polygon.id not in layout.by_id and polygon.id not in extruded:
@@ -127,6 +124,14 @@ class Extrusion(Operation):
             if surface.label == self.label:
                 e, own = _element_of(surface.polygon, node, surface)
                 yield e, own, self._labels(own, e, layout)
+
+    def _standing(self, layout: Layout) -> list[tuple[Element, Polygon, tuple[str, ...]]]:
+        """`_targets` among the elements."""
+        return [
+            (e, e.outline, self._labels(e.outline, e, layout))
+            for e in layout.visible
+            if e.label == self.label and e.solid is None and not e.absorbed_by and e.outline is not None
+        ]
 
     def _labels(self, own: Polygon, element: Element, layout: Layout) -> tuple[str, ...]:
         """A label per edge of an outline in its element's frame: its own, that of the edge it faces, or its side."""
@@ -152,17 +157,13 @@ class Extrusion(Operation):
         return (self._lesson, *((e, own.content, labels) for e, own, labels in self._targets(layout, "")))
 
 
-def _own(ring: Array, pose: Pose) -> Array:
-    """A ring on a surface in the frame of a pose, unmirrored."""
-    c, s = np.cos(pose.angle), np.sin(pose.angle)
-    return (ring - pose.position) @ np.array([[c, -s], [s, c]])
-
-
 def _element_of(polygon: Polygon, node: str, surface: Surface | None = None) -> tuple[Element, Polygon]:
     """A polygon of the ground, or a surface, as an element that can be extruded, and its outline in its own frame."""
     x, y = polygon.centroid
     pose = Pose((float(x), float(y)), polygon.main_orientation)
-    rings = [np.round(_own(ring, pose), 9) + 0.0 for ring in polygon.rings]
+    c, s = np.cos(pose.angle), np.sin(pose.angle)
+    turn = np.array([[c, -s], [s, c]])
+    rings = [np.round((ring - pose.position) @ turn, DIGITS) + 0.0 for ring in polygon.rings]
     own = Polygon(rings[0], polygon.label, None, rings[1:], segment_labels=polygon.segment_labels)
     footprint = tuple((float(u), float(v)) for u, v in own.points)
     key = key_of(pose.position, polygon)

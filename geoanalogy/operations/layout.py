@@ -2,15 +2,18 @@
 
 import re
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any, TypeVar
 
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..geometry.surface import GROUND, Surface
 from .changes import changed, joined
 from .element import Element
+
+Derived = TypeVar("Derived")
 
 
 @dataclass(frozen=True)
@@ -81,6 +84,27 @@ class Layout:
     def polygon_ids(self) -> frozenset[str]:
         """Ids of the polygons of the scene."""
         return frozenset(str(p.id) for p in self.scene.polygons)
+
+    def derived(self, name: Hashable, derive: Callable[[], Derived]) -> Derived:
+        """What an operation makes of the layout more than once: to see whether it has changed, and to work on.
+
+        Parameters
+        ----------
+        name : hashable
+        derive : callable
+
+        Returns
+        -------
+        object
+        """
+        if name not in self._derived:
+            self._derived[name] = derive()
+        found: Derived = self._derived[name]
+        return found
+
+    @cached_property
+    def _derived(self) -> dict[Hashable, Any]:
+        return {}
 
     @cached_property
     def on(self) -> dict[str, list[Element]]:

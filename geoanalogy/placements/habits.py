@@ -175,7 +175,7 @@ class Habits:
         dict of str to ndarray of shape (n,)
             For the groups of `exact`.
         """
-        found = {}
+        found: dict[str, Array] = {}
         for key, exact in self.exact.items():
             if key not in seen.boxes:
                 found[key] = np.zeros(len(seen.boxes[PARENT_BOX]))
@@ -184,5 +184,5 @@ class Habits:
             off = edges - self.of[key].middle
             off[..., 3] *= edges[..., 0] - edges[..., 1]
             agreement = np.nan_to_num(np.exp(-0.5 * (off / (HABIT_FLOOR * self.widths)) ** 2))
-            found[key] = (exact * agreement).max(axis=3).min(axis=(1, 2))
+            found[key] = np.where(exact, agreement, 0.0).max(axis=3).min(axis=(1, 2))
         return found
