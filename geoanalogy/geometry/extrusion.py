@@ -1,5 +1,6 @@
 """Extruding polygons to solids (section 5.6)."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -21,6 +22,9 @@ Triangles = NDArray[np.intp]
 
 #: Which of its faces an extruded solid has on the surface that its outline is drawn on.
 BOTTOM = 0
+
+#: The triangles of four corners in a row.
+QUADRANGLE = np.array([(0, 1, 2), (0, 2, 3)])
 
 
 @dataclass(frozen=True)
@@ -102,7 +106,7 @@ def extrude(
     solid = _room(outline, abs(height), labels, walls) if walls else _prism(outline, abs(height), labels, pitched)
     if height < 0:
         solid = _mirrored(solid)
-    return replace(solid, faces=tuple(replace(face, frame=face.frame.upright(up)) for face in solid.faces))
+    return replace(solid, faces=tuple(Face(f.name, f.label, f.frame.upright(up), f.domain) for f in solid.faces))
 
 
 @dataclass(frozen=True)
@@ -118,8 +122,8 @@ class _Outline:
         names += [("",) * len(hole) for hole in polygon.holes]
         rings, labels = [], []
         for ring, name in zip(polygon.rings, names, strict=True):
-            edges = np.roll(ring, -1, axis=0) - ring
-            before = np.roll(edges, 1, axis=0)
+            edges = np.concatenate([ring[1:], ring[:1]]) - ring
+            before = np.concatenate([edges[-1:], edges[:-1]])
             turn = np.arctan2(before[:, 0] * edges[:, 1] - before[:, 1] * edges[:, 0], (before * edges).sum(axis=1))
             changes = np.array([name[i] != name[i - 1] for i in range(len(name))])
             kept = np.flatnonzero((np.abs(turn) > STRAIGHT_RUN) | changes)
@@ -143,11 +147,12 @@ def _prism(outline: _Outline, height: float, labels: FaceLabels, roof: Roof | No
     parts = [(_raised(every, 0.0), cap[:, ::-1], 0)]
     number = 0
     for ring, names in zip(outline.rings, outline.labels, strict=True):
-        for a, b, name in zip(ring, np.roll(ring, -1, axis=0), names, strict=True):
-            along = (b - a) / np.hypot(*(b - a))
-            frame = Frame.of((*a, 0.0), (*along, 0.0), (0.0, 0.0, 1.0))
-            corners = np.array([(*a, 0.0), (*b, 0.0), (*b, height), (*a, height)])
-            parts.append((corners, np.array([(0, 1, 2), (0, 2, 3)]), len(faces)))
+        corners = ring.tolist()
+        for (x, y), (u, v), name in zip(corners, [*corners[1:], corners[0]], names, strict=True):
+            length = math.hypot(u - x, v - y)
+            frame = Frame((x, y, 0.0), ((u - x) / length, (v - y) / length, 0.0), (0.0, 0.0, 1.0))
+            upright = np.array([(x, y, 0.0), (u, v, 0.0), (u, v, height), (x, y, height)])
+            parts.append((upright, QUADRANGLE, len(faces)))
             faces.append(Face(f"side {number}", f"{name} {labels.side}".strip(), frame))
             number += 1
     if roof is None or roof.overhang > 0.0:
@@ -191,7 +196,7 @@ def _room(outline: _Outline, height: float, labels: FaceLabels, walls: float) ->
                 start, end = (b, a) if inner else (a, b)
                 along = (end - start) / np.hypot(*(end - start))
                 corners = np.array([(*start, foot), (*end, foot), (*end, height), (*start, height)])
-                parts.append((corners, np.array([(0, 1, 2), (0, 2, 3)]), len(faces)))
+                parts.append((corners, QUADRANGLE, len(faces)))
                 label = f"{name} {labels.side}".strip() if inner else labels.outside
                 faces.append(Face(f"{side} {number}", label, Frame.of((*start, foot), (*along, 0.0), (0.0, 0.0, 1.0))))
                 number += 1

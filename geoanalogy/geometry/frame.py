@@ -1,5 +1,6 @@
 """Frames of planes in space: where a flat arrangement lies (section 5.6, surfaces)."""
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -156,13 +157,14 @@ class Frame:
         -------
         Frame
         """
-        wanted = np.asarray(up, float)
-        y = wanted - (self.normal @ wanted) * self.normal
-        length = float(np.sqrt(y @ y))
+        (a, b, c), (u, v, w) = self._across, _triple(up)
+        along = a * u + b * v + c * w
+        x, y, z = u - along * a, v - along * b, w - along * c
+        length = math.sqrt(x * x + y * y + z * z)
         if length < 1e-6:
             return self
-        y /= length
-        return Frame(self.origin, _cross(_triple(y), _triple(self.normal)), _triple(y))
+        upwards = (x / length, y / length, z / length)
+        return Frame(self.origin, _cross(upwards, self._across), upwards)
 
     @property
     def flipped(self) -> "Frame":

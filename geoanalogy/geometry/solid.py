@@ -310,6 +310,10 @@ def assembled(parts: Sequence[tuple[Array, NDArray[np.intp], int]], faces: Seque
     starts = np.cumsum([0, *(len(points) for points, _, _ in parts)])
     points = np.concatenate([points for points, _, _ in parts]) + 0.0
     triangles = np.concatenate([t + s for (_, t, _), s in zip(parts, starts, strict=False)])
-    vertices, index = np.unique(points, axis=0, return_inverse=True)
+    order = np.lexsort(points.T[::-1])
+    ordered = points[order]
+    distinct = np.concatenate([[True], (ordered[1:] != ordered[:-1]).any(axis=1)])
+    index = np.empty(len(points), dtype=np.intp)
+    index[order] = np.cumsum(distinct) - 1
     face = np.repeat([f for _, _, f in parts], [len(t) for _, t, _ in parts])
-    return Solid(vertices, index.reshape(-1)[triangles], face, tuple(faces))
+    return Solid(ordered[distinct], index[triangles], face, tuple(faces))
