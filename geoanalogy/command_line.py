@@ -19,6 +19,8 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, NoReturn
 
+from .applying import add_options, apply, results_of
+from .batch.generation import Stopped
 from .errors import Cancelled, InputError
 
 
@@ -148,37 +150,8 @@ def _replay(arguments: argparse.Namespace, progress: ProgressLines) -> str:
 
 
 def _apply(arguments: argparse.Namespace, progress: ProgressLines) -> str:
-    results = [path for path in (arguments.output, arguments.render) if path is not None]
-    if not results:
-        raise argparse.ArgumentTypeError("apply needs --output, --render or both: it would do nothing")
-    _check_writable(results)
-    meshes_only = (
-        arguments.output if arguments.output is not None and arguments.output.suffix.lower() == ".obj" else None
-    )
-    drawn = [path for path in results if path != meshes_only]
-    if arguments.library is not None and not arguments.library.is_file():
-        raise InputError(f"{arguments.library} is not there; check the path")
-    from .applying import apply_file
-    from .formats import obj
-    from .geometry.mesh import Mesh
-
-    if drawn:  # before the long work, in case there is no Blender
-        from .blender.buildings import write_applied
-
-    applied = apply_file(
-        arguments.tree, arguments.parcels, seed=arguments.seed, label=arguments.label, progress=progress
-    )
-    meshes = [(e.id, e.mesh) for e in applied if isinstance(e.mesh, Mesh)]
-    made = [f"{len(applied)} elements, {len(meshes)} objects; {applied.hit_rate:.0%} of all surfaces were known"]
-    if meshes_only is not None:
-        obj.write(meshes, meshes_only)
-    if drawn:
-        before = [_last_written(path) for path in drawn]
-        output = arguments.output if meshes_only is None else None
-        built = write_applied(applied, library=arguments.library, output=output, render=arguments.render)
-        _check_written(drawn, before)
-        made = [*built.problems, *made, f"{built.masses} merged meshes, {built.instances} instances"]
-    return "\n".join([*applied.problems, *made, *(f"wrote {path}" for path in results)])
+    _check_writable(results_of(arguments))
+    return apply(arguments, progress)
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -211,16 +184,18 @@ def build_parser() -> argparse.ArgumentParser:
     replay.add_argument("--threshold", type=_fraction, metavar="T", help="least importance of a result (their own)")
     replay.set_defaults(run=_replay)
 
-    apply = commands.add_parser("apply", help="apply an operations tree to a file of parcels")
-    apply.add_argument("--tree", type=_path_with_suffix(".json"), required=True, metavar="TREE.json")
-    apply.add_argument("--parcels", type=Path, required=True, metavar="FILE.geojson", help="labelled polygons")
-    apply.add_argument("--label", metavar="NAME", help="property of the file that holds the labels")
-    apply.add_argument("--seed", type=int, default=0, metavar="N", help="seed of all chance (0)")
+    city = commands.add_parser("apply", help="apply operations trees to parcels, in tiles")
+    tree = _path_with_suffix(".json")
+    city.add_argument(
+        "--tree", type=tree, action="append", required=True, metavar="TREE.json", help="several, by repeating it"
+    )
+    city.add_argument("--parcels", type=Path, metavar="FILE.geojson", help="labelled polygons (the open file's)")
     either = _path_with_suffix(".blend", ".obj")
-    apply.add_argument("--output", type=either, metavar="OUT.blend", help="write the scene here, or its meshes (.obj)")
-    apply.add_argument("--render", type=_path_with_suffix(".png"), metavar="OUT.png", help="draw a picture of it here")
-    apply.add_argument("--library", type=blend, metavar="LIB.blend", help="where library objects are, by their names")
-    apply.set_defaults(run=_apply)
+    city.add_argument("--output", type=either, metavar="OUT.blend", help="write the scene here, or its meshes (.obj)")
+    city.add_argument("--render", type=_path_with_suffix(".png"), metavar="OUT.png", help="draw a picture of it here")
+    city.add_argument("--library", type=blend, metavar="LIB.blend", help="where library objects are, by their names")
+    add_options(city)
+    city.set_defaults(run=_apply)
     return parser
 
 
@@ -257,6 +232,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             traceback.print_exc()
             return ExitCode.INTERNAL_ERROR
         return _failed(ExitCode.BAD_INPUT, missing_module(error))
+    except Stopped as kept:
+        return _failed(ExitCode.CANCELLED, kept)
     except (Cancelled, KeyboardInterrupt):
         return _failed(ExitCode.CANCELLED, "cancelled; nothing was written")
     except OSError as error:

@@ -141,6 +141,19 @@ SAME_POLYGON = 1e-4
 #: about: a replay after a wall was moved shifts results a little; of several, the nearest is meant.
 SAME_RESULT = 0.05
 
+#: Mean width, in scene units, of the thinnest parcel that anything is built on: thinner is what is left between borders.
+THINNEST_PARCEL = 0.5
+
+#: Width, in units of its file, that the largest polygon of a map has at least, unless the unit is the degree: a hundredth
+#: of a degree is a kilometre.
+SMALLEST_MAP = 0.05
+
+#: Vertices that a parcel may have: cadastral ones have tens, and what is drawn finer costs time and adds nothing.
+MOST_VERTICES = 20_000
+
+#: Distance, in sizes of a polygon, within which an edge lies on one of its former edges after it has been cut back.
+ON_SAME_EDGE = 1e-6
+
 #: Area, in squared scene units, of the smallest parcel that anything is built on; less is left where borders were drawn
 #: twice.
 SMALLEST_PARCEL = 1.0

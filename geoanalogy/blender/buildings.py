@@ -1,42 +1,39 @@
 """What an operations tree has built, as a .blend: masses as one mesh per label, library objects as instances."""
 
-from collections.abc import Iterable, Mapping
+import os
+import zlib
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import bpy
 import numpy as np
-from mathutils import Matrix
 from numpy.typing import NDArray
 
+from ..batch.product import Masses, Product, product_of, together
 from ..errors import InputError
 from ..geometry.extrusion import triangulated
 from ..geometry.mesh import Mesh, joined
 from ..geometry.scene import Scene
-from ..operations.applied import Applied, Instance, instances
+from ..operations.applied import Applied
 from . import names
 from .drawing import draw_picture
+from .library_objects import holder, put
+from .names import UNLABELLED
 from .outdoors import furnish
-from .shading import material
+from .shading import FINISHES, VARIATION, material
 
 Array = NDArray[np.float64]
 
 #: How far parcels lie below what stands on them, scene units: flat elements at height 0 are seen.
 DROP = 0.03
 
-#: Size of what stands for a missing library object that has no outline, scene units.
-POINT_SIZE = 0.5
+#: Material of parcels whose label says nothing about what they look like.
+PARCEL = "parcel"
 
-#: Thickness of what stands for a missing library object, in proportion to the shorter side of its outline: on level
-#: surfaces a box, on others a panel.
-BOX, PANEL = 1.0, 0.1
-
-#: Name of what has no label.
-UNLABELLED = "unlabelled"
-
-#: Corners and outward faces of the unit cube that stands for missing library objects.
-CUBE = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
-CUBE_FACES = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
+#: The collection of parcels, ground, lamps and cameras.
+SURROUNDINGS = "Surroundings"
 
 
 @dataclass(frozen=True)
@@ -58,18 +55,48 @@ class Built:
     problems: tuple[str, ...]
 
 
-def write_applied(applied: Applied, *, library: Path | None, output: Path | None, render: Path | None) -> Built:
-    """Write what an operations tree has built as a .blend, a picture of it, or both.
+@dataclass(frozen=True)
+class Results:
+    """What is to be written.
 
-    The open file makes room for a fresh one.
+    Attributes
+    ----------
+    output, render : Path or None
+        The .blend and the .png.
+    library : Path or None
+        A .blend with the library objects; of those that it has not, plain boxes and panels take the places.
+    tiles : Path or None
+        Folder of a .blend per tile, which the output then links.
+    """
+
+    output: Path | None = None
+    render: Path | None = None
+    library: Path | None = None
+    tiles: Path | None = None
+
+
+def write(
+    ground: Scene,
+    products: Iterable[tuple[str, Product]],
+    results: Results,
+    properties: Mapping[str, object] | None = None,
+    report: Callable[[float, str], object] = lambda *_: None,
+) -> Built:
+    """Write what has been built as a .blend, a picture of it, or both.
+
+    The open file makes room for a fresh one. Files of those names stay as they were until the new ones are complete.
 
     Parameters
     ----------
-    applied : Applied
-    library : Path or None
-        A .blend with the library objects; of those that it has not, plain boxes and panels take the places.
-    output, render : Path or None
-        The .blend and the .png to write.
+    ground : Scene
+        All parcels.
+    products : iterable of (str, Product)
+        With the names of their tiles.
+    results : Results
+    properties : mapping, optional
+        Custom properties of the scene.
+    report : callable (fraction, text), optional
+        Called before each part of the work, which is not stopped any more.
 
     Returns
     -------
@@ -82,17 +109,86 @@ def write_applied(applied: Applied, *, library: Path | None, output: Path | None
     OSError
         When a file cannot be written.
     """
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True, load_ui=False)
-    scene = bpy.context.scene
-    built = build(scene, applied, library)
-    if render is not None:
-        draw_picture(scene, render)
-    if output is not None:
-        try:
-            bpy.ops.wm.save_as_mainfile(filepath=str(output), copy=True, compress=True, check_existing=False)
-        except RuntimeError as error:
-            raise OSError(f"cannot write {output}: {str(error).strip()}") from None
+    if results.tiles is None:
+        report(1.0, "writing")
+        scene = _fresh()
+        built = fill(scene, ground, together(product for _, product in products), results.library)
+    else:
+        scene, built = _linked(ground, products, results, report)
+    for name, value in (properties or {}).items():
+        scene[name] = value
+    # The picture first: where it fails, nothing has been written.
+    if results.render is not None:
+        report(1.0, "drawing")
+        with _whole(results.render) as part:
+            draw_picture(scene, part)
+    if results.output is not None:
+        _save(results.output)
     return built
+
+
+def _fresh() -> bpy.types.Scene:
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True, load_ui=False)
+    return bpy.context.scene
+
+
+@contextmanager
+def _whole(path: Path):
+    """A name beside a file, which takes the file's place where all goes well."""
+    part = path.with_name(f"{path.stem}.{os.getpid()}.part{path.suffix}")
+    try:
+        yield part
+        if not part.is_file() or not part.stat().st_size:
+            raise OSError(f"cannot write {path}: Blender left no file there.")
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def _save(path: Path) -> None:
+    """Save the open file under a name that it does not keep."""
+    with _whole(path) as part:
+        try:
+            bpy.ops.wm.save_as_mainfile(filepath=str(part), copy=True, compress=True, check_existing=False)
+        except RuntimeError as error:
+            raise OSError(f"cannot write {path}: {str(error).strip()}") from None
+
+
+def _linked(
+    ground: Scene, products: Iterable[tuple[str, Product]], results: Results, report: Callable[[float, str], object]
+) -> tuple[bpy.types.Scene, Built]:
+    """A .blend per tile, and a scene that links them."""
+    folder = results.tiles
+    folder.mkdir(parents=True, exist_ok=True)
+    written: list[tuple[str, Path]] = []
+    points, problems, instances = [], {}, 0
+    for name, product in products:
+        report(1.0, f"writing {name}")
+        scene = _fresh()
+        built, extent = _buildings(scene, product, results.library, Scene([]))
+        points.append(extent)
+        problems.update(dict.fromkeys(built.problems))
+        instances += built.instances
+        whole = bpy.data.collections.new(name)
+        for part in [c for c in scene.collection.children if c.name != "Library"]:
+            scene.collection.children.unlink(part)
+            whole.children.link(part)
+        scene.collection.children.link(whole)
+        path = folder / f"{name}.blend"
+        _save(path)
+        written.append((name, path))
+    scene = _fresh()
+    base = results.output or results.render
+    for name, path in written:
+        with bpy.data.libraries.load(str(path), link=True) as (_, brought):
+            brought.collections = [name]
+        scene.collection.children.link(brought.collections[0])
+    for library in bpy.data.libraries:
+        if base is not None and Path(library.filepath).parent == folder:
+            library.filepath = f"//{Path(os.path.relpath(library.filepath, base.parent)).as_posix()}"
+    points.append(_surroundings(scene, ground))
+    _place_to_look_from(scene, points)
+    return scene, Built(len(written), instances, tuple(problems))
 
 
 def build(scene: bpy.types.Scene, applied: Applied, library: Path | None) -> Built:
@@ -114,35 +210,84 @@ def build(scene: bpy.types.Scene, applied: Applied, library: Path | None) -> Bui
     InputError
         Where the library cannot be read, or nothing was built that could be drawn.
     """
-    placed = [i for i in instances(applied.layout.elements) if isinstance(i.mesh, str)]
-    masses: dict[str, list[Mesh]] = {}
-    for e in applied:
-        if isinstance(e.mesh, Mesh):
-            masses.setdefault(e.label or UNLABELLED, []).append(e.mesh)
-    parcels = _parcels(applied.layout.ground)
-    points = [parcels.vertices, *(mesh.vertices for group in masses.values() for mesh in group)]
-    holders = {label: bpy.data.collections.new(label) for label in masses}
-    for i in placed:
-        label = i.element.label or UNLABELLED
-        if label not in holders:
-            holders[label] = bpy.data.collections.new(label)
-    for holder in holders.values():
-        scene.collection.children.link(holder)
-    for label, group in masses.items():
-        mass = bpy.data.objects.new(label, mesh_data(label, joined(group)))
+    ground = applied.layout.ground
+    facts = {"parcels": [], "elements": len(applied), "problems": [], "known": 0, "surfaces": 0, "seconds": {}}
+    return fill(scene, ground, product_of(applied, {str(p.id): str(p.id) for p in ground.polygons}, facts), library)
+
+
+def fill(scene: bpy.types.Scene, ground: Scene, product: Product, library: Path | None) -> Built:
+    """Fill a scene with what has been built on parcels, and with what it takes to look at it.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        An empty one.
+    ground : Scene
+    product : Product
+    library : Path or None
+
+    Returns
+    -------
+    Built
+
+    Raises
+    ------
+    InputError
+        Where the library cannot be read, or nothing was built that could be drawn.
+    """
+    built, extent = _buildings(scene, product, library, ground)
+    _place_to_look_from(scene, [extent, _surroundings(scene, ground)])
+    return built
+
+
+def _buildings(scene: bpy.types.Scene, product: Product, library: Path | None, ground: Scene) -> tuple[Built, Array]:
+    """Masses and library objects, each in the collection of its label, and points that they lie within."""
+    masses = product.masses
+    by_label: dict[str, list[int]] = {}
+    for k, label in enumerate(masses.labels):
+        by_label.setdefault(label or UNLABELLED, []).append(k)
+    for label, those in by_label.items():
+        mass = bpy.data.objects.new(label, _mass(label, masses, those))
         mass[names.LABEL] = label
-        holders[label].objects.link(mass)
-    problems = _place(placed, holders, library)
-    points += [_corners(i) for i in placed]
+        holder(scene, label).objects.link(mass)
+    extent, problems = put(scene, product.placed, library, ground)
+    return Built(len(by_label), len(product.placed), problems), np.concatenate([_corners(masses), extent])
+
+
+def _mass(label: str, masses: Masses, those: Sequence[int]) -> bpy.types.Mesh:
+    """The meshes of a label as one, whose faces know which parcel they are of."""
+    singles = [masses.single(k) for k in those]
+    made = mesh_data(label, joined(singles))
+    lots = [zlib.crc32(masses.parcels[k].encode()) / 0xFFFFFFFF for k in those]
+    varied = np.repeat(np.array(lots, np.float32), [len(single.faces) for single in singles])
+    made.attributes.new(VARIATION, "FLOAT", "FACE").data.foreach_set("value", varied)
+    return made
+
+
+def _corners(masses: Masses) -> Array:
+    """Corners of the boxes of meshes."""
+    if not len(masses) or not len(masses.mesh.vertices):
+        return np.zeros((0, 3))
+    starts = masses.vertex_start[:-1][np.diff(masses.vertex_start) > 0]
+    low = np.minimum.reduceat(masses.mesh.vertices, starts)
+    high = np.maximum.reduceat(masses.mesh.vertices, starts)
+    choice = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+    return (low[:, None] + choice * (high - low)[:, None]).reshape(-1, 3)
+
+
+def _surroundings(scene: bpy.types.Scene, ground: Scene) -> Array:
+    """The parcels, and the points that they lie within."""
+    parcels = _parcels(ground)
+    if len(parcels.faces):
+        holder(scene, SURROUNDINGS).objects.link(bpy.data.objects.new("Parcels", mesh_data("Parcels", parcels)))
+    return parcels.vertices
+
+
+def _place_to_look_from(scene: bpy.types.Scene, points: Sequence[Array]) -> None:
     everything = np.concatenate(points)
     if not len(everything):
         raise InputError("nothing was built and there are no parcels; check the labels of the parcels")
-    surroundings = bpy.data.collections.new("Surroundings")
-    scene.collection.children.link(surroundings)
-    if len(parcels.faces):
-        surroundings.objects.link(bpy.data.objects.new("Parcels", mesh_data("Parcels", parcels)))
-    furnish(scene, surroundings, everything, DROP)
-    return Built(len(masses), len(placed), problems)
+    furnish(scene, holder(scene, SURROUNDINGS), everything, DROP)
 
 
 def mesh_data(name: str, mesh: Mesh) -> bpy.types.Mesh:
@@ -182,80 +327,6 @@ def _parcels(ground: Scene) -> Mesh:
             above, depth = ground.parent(str(above.id)), depth + 1
         faces, points = triangulated(polygon.rings), np.concatenate(polygon.rings)
         flat = np.column_stack([points, np.full(len(points), -DROP / depth)])
-        made.append(Mesh(flat, faces, points[faces], ("parcel",), np.zeros(len(faces), dtype=np.intp)))
+        finish = polygon.label if polygon.label and polygon.label.lower().split()[-1] in FINISHES else PARCEL
+        made.append(Mesh(flat, faces, points[faces], (finish,), np.zeros(len(faces), dtype=np.intp)))
     return joined(made)
-
-
-def _extent(instance: Instance) -> tuple[Array, Array]:
-    """Lower corner and size, in the mesh's own coordinates, of what stands for a missing library object."""
-    outline = instance.element.footprint
-    if outline is None:
-        return np.array([-POINT_SIZE / 2, -POINT_SIZE / 2, 0.0]), np.full(3, POINT_SIZE)
-    low, high = np.min(outline, axis=0), np.max(outline, axis=0)
-    level = abs(instance.frame.normal[2]) > np.sqrt(0.5)
-    thickness = (BOX if level else PANEL) * float((high - low).min())
-    return np.append(low, 0.0), np.append(high - low, thickness)
-
-
-def _corners(instance: Instance) -> Array:
-    """Corners in space of the box that an instance is taken to fill, shape (8, 3)."""
-    low, size = _extent(instance)
-    return instance.frame.to_space((low + CUBE * size) * instance.scale)
-
-
-def _place(
-    placed: Iterable[Instance], holders: Mapping[str, bpy.types.Collection], library: Path | None
-) -> tuple[str, ...]:
-    """Put library objects, or what stands for them, in their places; a sentence for every one that is missing."""
-    placed = list(placed)
-    wanted = dict.fromkeys(str(i.mesh) for i in placed)
-    sources = {} if library is None else _library_objects(library, wanted)
-    problems: dict[str, str] = {}
-    cubes: dict[str, bpy.types.Mesh] = {}
-    count: dict[str, int] = {}
-    for i in placed:
-        name, label = str(i.mesh), i.element.label or UNLABELLED
-        count[label] = count.get(label, 0) + 1
-        place = np.array(i.frame.matrix) @ np.diag((*i.scale, 1.0))
-        if name in sources:
-            made = sources[name].copy()
-            turned = made.matrix_basis.copy()
-            turned.translation = (0.0, 0.0, 0.0)
-            made.parent = None
-            made.matrix_world = Matrix(place.tolist()) @ turned
-        else:
-            if name not in cubes:
-                cubes[name] = _cube(name, label)
-                where = "--library names no file" if library is None else f"{library} has no such object"
-                problems[name] = (
-                    f"node {i.element.node!r}: the library object {name!r} is missing ({where}); plain boxes take its "
-                    "places, add it to the library"
-                )
-            made = bpy.data.objects.new(name, cubes[name])
-            low, size = _extent(i)
-            fit = np.diag((*size, 1.0))
-            fit[:3, 3] = low
-            made.matrix_world = Matrix((place @ fit).tolist())
-        made.name = f"{label} {count[label]:03d}"
-        made[names.LABEL], made[names.NODE], made[names.KEY] = label, i.element.node, i.element.key
-        holders[label].objects.link(made)
-    bpy.data.batch_remove(list(sources.values()))
-    return tuple(problems.values())
-
-
-def _cube(name: str, label: str) -> bpy.types.Mesh:
-    cube = bpy.data.meshes.new(name)
-    cube.from_pydata(CUBE.tolist(), [], CUBE_FACES)
-    cube.materials.append(material(label))
-    return cube
-
-
-def _library_objects(library: Path, wanted: Iterable[str]) -> dict[str, bpy.types.Object]:
-    """The objects of these names that a .blend has, brought into this file but not into its scene."""
-    try:
-        with bpy.data.libraries.load(str(library), link=False) as (there, brought):
-            found = [name for name in wanted if name in there.objects]
-            brought.objects = list(found)
-    except OSError as error:
-        raise InputError(f"{library} cannot be opened ({error}); save it again") from None
-    return dict(zip(found, brought.objects, strict=True))

@@ -32,11 +32,49 @@ FINISHES: dict[str, tuple[Colour, float]] = {
     "hedge": ((0.045, 0.13, 0.03), 1.0),
     "tree": ((0.045, 0.13, 0.03), 1.0),
     "parcel": ((0.16, 0.26, 0.08), 1.0),
+    "garden": ((0.15, 0.25, 0.07), 1.0),
+    "lawn": ((0.17, 0.29, 0.08), 1.0),
+    "park": ((0.12, 0.23, 0.06), 1.0),
+    "verge": ((0.14, 0.24, 0.07), 1.0),
+    "street": ((0.085, 0.085, 0.09), 0.9),
+    "road": ((0.085, 0.085, 0.09), 0.9),
+    "marking": ((0.55, 0.55, 0.52), 0.8),
+    "pavement": ((0.36, 0.35, 0.33), 0.9),
+    "square": ((0.42, 0.39, 0.35), 0.9),
+    "yard": ((0.34, 0.31, 0.27), 0.9),
+    "water": ((0.05, 0.10, 0.13), 0.1),
+    "pond": ((0.05, 0.10, 0.13), 0.1),
     "ground": ((0.20, 0.195, 0.19), 1.0),
     "path": ((0.48, 0.44, 0.39), 0.9),
     "walk": ((0.48, 0.44, 0.39), 0.9),
     "parking": ((0.16, 0.16, 0.17), 0.9),
 }
+
+#: Attribute of faces, from 0 to 1, by which the buildings of a street differ: the same on all of one parcel.
+VARIATION = "ga_variation"
+
+#: Scene-linear colours among which buildings differ, by the last word of a name.
+PALETTES: dict[str, tuple[Colour, ...]] = {
+    "wall": (
+        (0.72, 0.63, 0.50),
+        (0.80, 0.77, 0.70),
+        (0.62, 0.42, 0.27),
+        (0.66, 0.58, 0.38),
+        (0.55, 0.60, 0.62),
+        (0.45, 0.17, 0.11),
+        (0.78, 0.68, 0.58),
+        (0.57, 0.61, 0.50),
+    ),
+    "roof": (
+        (0.26, 0.075, 0.045),
+        (0.11, 0.10, 0.105),
+        (0.20, 0.065, 0.045),
+        (0.17, 0.12, 0.09),
+        (0.31, 0.11, 0.06),
+    ),
+    "hedge": ((0.045, 0.13, 0.03), (0.07, 0.15, 0.035), (0.035, 0.10, 0.03)),
+}
+PALETTES["gable"] = PALETTES["facade"] = PALETTES["wall"]
 
 #: The lightness range that the names without a word of the table are spread over.
 PALEST, DARKEST = 0.75, 0.45
@@ -88,4 +126,24 @@ def material(name: str) -> bpy.types.Material:
     shader = next(node for node in made.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
     shader.inputs["Base Color"].default_value = (*colour, 1.0)
     shader.inputs["Roughness"].default_value = roughness
+    known = next((word for word in reversed(name.lower().split()) if word in FINISHES), "")
+    palette = PALETTES.get(known)
+    if palette is not None:
+        _vary(made, shader, palette)
     return made
+
+
+def _vary(shaded: bpy.types.Material, shader: bpy.types.ShaderNode, palette: tuple[Colour, ...]) -> None:
+    """Choose a material's colour by the attribute of its faces."""
+    nodes, links = shaded.node_tree.nodes, shaded.node_tree.links
+    attribute, ramp = nodes.new("ShaderNodeAttribute"), nodes.new("ShaderNodeValToRGB")
+    attribute.attribute_name = VARIATION
+    elements = ramp.color_ramp.elements
+    ramp.color_ramp.interpolation = "CONSTANT"
+    while len(elements) < len(palette):
+        elements.new(0.5)
+    for k, (element, colour) in enumerate(zip(elements, palette, strict=True)):
+        element.position, element.color = k / len(palette), (*colour, 1.0)
+    links.new(attribute.outputs["Fac"], ramp.inputs["Fac"])
+    links.new(ramp.outputs["Color"], shader.inputs["Base Color"])
+    attribute.location, ramp.location = (-500.0, 200.0), (-300.0, 200.0)

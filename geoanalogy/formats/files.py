@@ -1,17 +1,20 @@
 """Reading and writing scenes and drawings, by the suffix of their files."""
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import InputError
 from ..geometry.scene import Scene
-from ..tolerances import SMALLEST_PARCEL
 from . import dxf, geojson, svg
+from .labelling import TABLE, Rule, read_table
 from .outlines import Outline, Points, make_scene
+from .repair import check_unit, mended, sound_parcels
 
-_READERS = {".geojson": geojson.read, ".json": geojson.read, ".svg": svg.read, ".dxf": dxf.read}
+_GEOJSON = (".geojson", ".json")
+_DRAWINGS = {".svg": svg.read, ".dxf": dxf.read}
 
 
 def read_scene(path: str | os.PathLike[str], *, label: str | None = None, scale: float = 1.0) -> Scene:
@@ -48,18 +51,17 @@ def read_scene(path: str | os.PathLike[str], *, label: str | None = None, scale:
     'attic'
     """
     path = Path(path)
-    reader = _READERS.get(path.suffix.lower())
-    if reader is None:
-        raise InputError(f"{path.name} is in no format that is read; give a .geojson, .json, .svg or .dxf file")
     if not np.isfinite(scale) or scale <= 0:
         raise InputError(f"the scale {scale} is no scale; give how many scene units a unit of the file is, such as 50")
-    outlines = reader(_content(path), path.name, label)
+    outlines = _outlines(path, label)
     if scale != 1.0:
         outlines = [Outline(o.where, [r * scale for r in o.rings], o.properties) for o in outlines]
     return make_scene(path.name, outlines)
 
 
-def read_parcels(path: str | os.PathLike[str], *, label: str | None = None) -> tuple[Scene, list[str]]:
+def read_parcels(
+    path: str | os.PathLike[str], *, label: str | None = None, table: str | os.PathLike[str] | None = None
+) -> tuple[Scene, list[str]]:
     """The sound parcels of a file, and what is wrong with the others.
 
     Parameters
@@ -68,36 +70,29 @@ def read_parcels(path: str | os.PathLike[str], *, label: str | None = None) -> t
         As for `read_scene`.
     label : str, optional
         As for `read_scene`.
+    table : str or path-like, optional
+        How parcels of GeoJSON without a label get one by their tags, see `labelling.read_table`; None: the table that
+        is part of the package.
 
     Returns
     -------
     scene : Scene
     problems : list of str
-        A sentence for every parcel that is left out: no simple ring, hardly any area, no label.
+        A sentence for every parcel that is mended, and for those that are left out: no simple ring, hardly any area,
+        far too many vertices, no label.
 
     Raises
     ------
     InputError
-        Where the file itself cannot be read.
+        Where the file or the table itself cannot be read, or the coordinates are degrees.
     """
     path = Path(path)
-    reader = _READERS.get(path.suffix.lower())
-    if reader is None:
-        raise InputError(f"{path.name} is in no format that is read; give a .geojson, .json, .svg or .dxf file")
+    rules = read_table(TABLE if table is None else table)
+    outlines = _outlines(path, label, rules)
+    check_unit(path.name, outlines)
     problems: list[str] = []
-    scene = make_scene(path.name, reader(_content(path), path.name, label), problems)
-    parents = {p.parent for p in scene.polygons}
-    sound = []
-    for p in scene.polygons:
-        if p.area < SMALLEST_PARCEL:
-            problems.append(
-                f"{path.name}, polygon {p.id!r}: its area is {p.area:.3g}; delete it or correct its outline"
-            )
-        elif not p.label and p.id not in parents:
-            problems.append(f"{path.name}, polygon {p.id!r}: it has no label, so that no operation fits; give it one")
-        else:
-            sound.append(p)
-    return Scene(sound, scene.offset, scene.memory), problems
+    scene = make_scene(path.name, mended(path.name, outlines, problems), problems)
+    return sound_parcels(path.name, scene, problems), problems
 
 
 def read_drawing(path: str | os.PathLike[str]) -> list[Points]:
@@ -150,6 +145,16 @@ def write_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
         part.replace(path)
     except OSError as error:
         raise InputError(f"{path} cannot be written ({error.strerror}); choose another place") from None
+
+
+def _outlines(path: Path, label: str | None, rules: Sequence[Rule] = ()) -> list[Outline]:
+    """The areas of a file of any format."""
+    suffix = path.suffix.lower()
+    if suffix in _GEOJSON:
+        return geojson.read(_content(path), path.name, label, rules)
+    if suffix not in _DRAWINGS:
+        raise InputError(f"{path.name} is in no format that is read; give a .geojson, .json, .svg or .dxf file")
+    return _DRAWINGS[suffix](_content(path), path.name, label)
 
 
 def _content(path: Path) -> bytes:

@@ -1,7 +1,7 @@
 """Scenes as GeoJSON (RFC 7946): FeatureCollections of polygons, in scene units instead of degrees."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -9,6 +9,7 @@ import numpy as np
 from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
+from .labelling import Rule, label_by
 from .outlines import Outline, Points
 
 #: What `write` says of its files; `read` refuses a higher number.
@@ -37,7 +38,7 @@ _AREAS = ("Polygon", "MultiPolygon")
 _OTHER = ("Point", "MultiPoint", "LineString", "MultiLineString")
 
 
-def read(content: bytes, file: str, label: str | None = None) -> list[Outline]:
+def read(content: bytes, file: str, label: str | None = None, rules: Sequence[Rule] = ()) -> list[Outline]:
     """The areas of a GeoJSON text; points and lines in it are left out.
 
     Parameters
@@ -50,6 +51,8 @@ def read(content: bytes, file: str, label: str | None = None) -> list[Outline]:
         The file's name, for messages.
     label : str, optional
         Another property that holds the label, such as "building".
+    rules : sequence of (str, str, str)
+        How features without a label get one by their other properties, see `labelling.label_by`.
 
     Returns
     -------
@@ -81,7 +84,7 @@ def read(content: bytes, file: str, label: str | None = None) -> list[Outline]:
         features = [data if data["type"] == "Feature" else {"type": "Feature", "geometry": data}]
     outlines: list[Outline] = []
     for number, feature in enumerate(features):
-        outlines += _feature(feature, f"feature {number}", file, label)
+        outlines += _feature(feature, f"feature {number}", file, label, rules)
     return outlines
 
 
@@ -106,7 +109,7 @@ def _check_crs(data: dict[str, Any], file: str) -> None:
         )
 
 
-def _feature(feature: Any, where: str, file: str, label: str | None) -> Iterator[Outline]:
+def _feature(feature: Any, where: str, file: str, label: str | None, rules: Sequence[Rule]) -> Iterator[Outline]:
     if not isinstance(feature, dict) or feature.get("type") != "Feature":
         raise InputError(f"{file}, {where}: it is no Feature; a FeatureCollection holds Feature objects")
     given = feature.get("properties")
@@ -125,7 +128,7 @@ def _feature(feature: Any, where: str, file: str, label: str | None) -> Iterator
         if value is not None and (not isinstance(value, str | int | float) or isinstance(value, bool)):
             raise InputError(f"{file}, {where}: its {name} is {_short(value)}; give a text")
     shared = {name: value if value is None else str(value) for name, value in text.items()}
-    shared["label"] = shared["label"] or ""
+    shared["label"] = shared["label"] or label_by(rules, properties)
     orientation = properties.get("orientation")
     if orientation is not None and (not isinstance(orientation, int | float) or abs(orientation) > _LARGEST_ANGLE):
         raise InputError(f"{file}, {where}: its orientation is {_short(orientation)}; give an angle in radians")

@@ -6,7 +6,6 @@ import pytest
 from shapes import rectangle
 
 from geoanalogy import Applied, Cancelled, InputError, OperationsTree, Polygon, Scene, read_scene, write_scene
-from geoanalogy.applying import apply_file
 from geoanalogy.command_line import ExitCode, main
 from geoanalogy.formats.files import read_parcels
 from geoanalogy.operations.boolean import Boolean
@@ -21,6 +20,15 @@ def feature(ring, **properties):
         "properties": properties,
         "geometry": {"type": "Polygon", "coordinates": [[*ring, ring[0]]]},
     }
+
+
+def apply_file(tree, path, seed=0, progress=None):
+    """What a stored tree makes of a file of parcels, in one go."""
+    recorded = OperationsTree.load(tree)
+    scene, problems = read_parcels(path)
+    applied = recorded.apply(scene, seed, progress)
+    applied.problems = (*problems, *applied.problems)
+    return applied
 
 
 GOOD = feature(rectangle(10, 20), id="good", label="plot")
@@ -125,8 +133,8 @@ def test_the_command_writes_meshes_and_says_what_it_made(files, capsys):
     ]
     assert main(command) == ExitCode.DONE
     said = capsys.readouterr()
-    assert "redraw it as a simple ring" in said.out and "1 elements, 1 objects" in said.out
-    assert said.err.startswith("[  0%] up")
+    assert "redraw it as a simple ring" in said.out and "1 elements on 1 parcels" in said.out
+    assert said.err.startswith("[  0%] 0 of 1 parcels built")
     written = output.read_text().splitlines()
     assert written[0].startswith("o up/good@")
     assert sum(line.startswith("v ") for line in written) == 8 and sum(line.startswith("f ") for line in written) == 12

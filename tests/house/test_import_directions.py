@@ -34,9 +34,10 @@ MAY_IMPORT = {
     "regions": BASE | {"geometry", "relations"},
     "formats": BASE | {"geometry", "regions"},
     "operations": BASE | ENGINES | {"geometry", "relations"},
-    "applying": BASE | ENGINES | {"geometry", "relations", "operations", "formats"},
-    "blender": BASE | ENGINES | {"geometry", "relations", "operations", "formats", "applying", "command_line"},
-    "command_line": BASE | ENGINES | {"geometry", "relations", "operations", "formats", "applying", "blender"},
+    "batch": BASE | {"geometry", "operations"},
+    "applying": BASE | {"geometry", "operations", "formats", "batch", "blender"},
+    "blender": BASE | ENGINES | {"geometry", "relations", "operations", "formats", "batch", "command_line"},
+    "command_line": BASE | {"applying", "batch", "blender"},
     # The package's own face: it collects the names, and is imported by none of them.
     "__init__": BASE | ENGINES | {"geometry", "relations", "operations", "formats"},
 }

@@ -1,0 +1,86 @@
+"""Tiles built on a Dask cluster. Dask is asked for only here."""
+
+import importlib
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from ..errors import InputError
+from .processes import PATIENCE, Work
+from .release import digest
+
+#: Seconds to wait for the scheduler.
+REACHED = 10
+
+
+def build_there(job: str, work: Sequence[Work], address: str) -> Iterator[tuple[str, str, bytes] | None]:
+    """Build tiles on a cluster.
+
+    A worker that is lost loses its tile to another one: a tile has a name, its content depends on nothing else, and so
+    each is taken once, whoever built it.
+
+    Parameters
+    ----------
+    job : str
+    work : sequence of Work
+    address : str
+        Of the scheduler, "tcp://10.0.0.1:8786".
+
+    Yields
+    ------
+    (key, reason, product) or None
+        Each tile when it is done, "" for the reason, or what it failed by; None where nothing happened for a while.
+
+    Raises
+    ------
+    InputError
+        Where Dask is not installed, the scheduler cannot be reached, or a worker has no engine or another one.
+    """
+    try:
+        distributed = importlib.import_module("distributed")
+        pickles = importlib.import_module("cloudpickle")
+    except ModuleNotFoundError as error:
+        raise InputError(
+            f"the module {error.name} is missing, which --scheduler needs: install it (pip install distributed)"
+        ) from None
+    from . import remote
+
+    # Inside an extension this module has a name that no worker knows, so that it travels itself.
+    pickles.register_pickle_by_value(remote)
+    try:
+        client = distributed.Client(address, timeout=REACHED, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise InputError(
+            f"no Dask scheduler answers at {address} ({error}); start one, or give another address"
+        ) from None
+    try:
+        yield from _futures(client, distributed, job, work, remote.build)
+    finally:
+        client.close()
+        pickles.unregister_pickle_by_value(remote)
+
+
+def _futures(client: Any, distributed: Any, job: str, work: Sequence[Work], build: Any) -> Iterator[Any]:
+    everywhere = client.scatter(job, broadcast=True, hash=True) if client.nthreads() else job
+    futures = {
+        client.submit(build, everywhere, one.scene, digest(), key=f"geoanalogy-{one.key}", retries=1): one.key
+        for one in work
+    }
+    try:
+        left = set(futures)
+        while left:
+            try:
+                done = distributed.wait(left, timeout=PATIENCE, return_when="FIRST_COMPLETED").done
+            except (TimeoutError, distributed.TimeoutError):
+                yield None
+                continue
+            for future in sorted(done, key=lambda f: futures[f]):
+                left.discard(future)
+                if future.status != "finished":
+                    yield futures[future], f"{type(future.exception()).__name__}: {future.exception()}", b""
+                    continue
+                refused, product = future.result()
+                if refused:
+                    raise InputError(refused)
+                yield futures[future], "", product
+    finally:
+        client.cancel(list(futures))

@@ -1,0 +1,38 @@
+"""A process that builds tiles: it reads lines with the names of files, and answers each when the tile is done.
+
+It is started with the engine's folder on its path, whatever package the engine is in where it was started from, and
+needs no Blender. A line is a JSON list: the file of the job, that of the tile's scene, that of the product.
+"""
+
+import json
+import signal
+import sys
+from pathlib import Path
+
+from .computing import compute
+from .store import write_whole
+
+
+def main() -> None:
+    """Build what is asked for until the input ends."""
+    # Ctrl-C reaches all processes of a terminal; the one that was asked decides.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    answers = sys.stdout
+    sys.stdout = sys.stderr  # whatever is printed is no answer
+    jobs: dict[str, str] = {}
+    for line in sys.stdin:
+        job, scene, product = json.loads(line)
+        if job not in jobs:
+            jobs = {job: Path(job).read_text(encoding="utf-8")}
+        answer = "done"
+        try:
+            built = compute(jobs[job], Path(scene).read_text(encoding="utf-8"))
+            write_whole(Path(product), built.to_bytes())
+        except Exception as error:
+            answer = f"{type(error).__name__}: {error}"
+        answers.write(json.dumps(answer) + "\n")
+        answers.flush()
+
+
+if __name__ == "__main__":
+    main()
