@@ -139,11 +139,18 @@ class Recorder:
         factor: tuple[float, float] = (1.0, 1.0),
         inwards: bool = False,
         roof: Roof | None = None,
+        walls: float = 0.0,
         **faces: str,
     ) -> str:
         labels = {"side": label, "top": label, "bottom": label, **faces}
         operation = Extrusion(
-            label=label, height=height, factor=factor, inwards=inwards, roof=roof or Roof(), faces=FaceLabels(**labels)
+            label=label,
+            height=height,
+            factor=factor,
+            inwards=inwards,
+            roof=roof or Roof(),
+            walls=walls,
+            faces=FaceLabels(**labels),
         )
         return self.record(f"extrude {label}", operation)
 
@@ -153,9 +160,9 @@ class Recorder:
     def subtract(self, label: str, target: str = "surface") -> str:
         return self.record(f"subtract {label}", Boolean(label=label, kind="subtract", target=target))  # type: ignore[arg-type]
 
-    def select(self, label: str, weights: Sequence[float]) -> list[Link]:
+    def select(self, label: str, weights: Sequence[float], seed: int = 0) -> list[Link]:
         """Divide what is of a label; the links of the sets, none of which is chosen yet."""
-        id = self.record(f"select {label}", Selection(label=label, weights=tuple(weights)))
+        id = self.record(f"select {label}", Selection(label=label, weights=tuple(weights), seed=seed))
         return [Link(id, k) for k in range(len(weights))]
 
     def recess(self, label: str, depth: float, back: str, reveal: str = "reveal") -> None:

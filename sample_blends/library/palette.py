@@ -77,6 +77,7 @@ PALETTE: dict[str, Finish] = {
     "basin shade": Finish("#DFE5E7", 0.15, coat=0.5),
     "glass": Finish("#E9F4F4", 0.02, transmission=0.95),
     "window glass": Finish("#BFDDE6", 0.05, transmission=0.7),
+    "daylight": Finish("#DDEBF4", 0.2, glow=1.1),
     "mirror": Finish("#DDE6EA", 0.03, metallic=1.0),
     "screen": Finish("#0B0D12", 0.12, coat=0.8),
     "screen image": Finish("#3D6E9E", 0.2, glow=0.35),
