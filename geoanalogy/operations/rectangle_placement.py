@@ -10,7 +10,7 @@ import shapely
 from numpy.typing import NDArray
 
 from ..errors import InputError
-from ..geometry.polygon import Polygon
+from ..geometry.polygon import Polygon, signed_area
 from ..geometry.rectangle import Rectangle
 from ..geometry.scene import Scene
 from ..placements.arrays import Fit, element_array
@@ -20,7 +20,7 @@ from ..placements.options import PlacementOptions
 from ..poses.pose import Pose
 from ..progress import Stepper
 from ..tolerances import CONTAINED_SHARE, SAME_POLYGON
-from .element import Element
+from .element import Element, Ring
 from .keys import key_of
 from .layout import Layout
 from .placing import PlacingOne, with_distinct_keys
@@ -78,6 +78,10 @@ def _read_flags(value: Any) -> tuple[bool, ...]:
     return tuple(flag(one) for one in value)
 
 
+def _read_ring(value: Any) -> Ring:
+    return tuple(_read_pair(corner) for corner in value)
+
+
 def _read_fit(value: Any) -> tuple[Fit, Fit]:
     read = one_of("scale", "repeat", "divide")
     along, across = value
@@ -98,6 +102,9 @@ class RectanglePlacement(PlacingOne):
         The polygons that the model's examples were drawn in, one per example: there, they are not placed a second time.
     size : (float, float)
         Width and height of the library object.
+    outline : tuple of (float, float)
+        What of a placement an element fills: a ring, counter-clockwise, in a square of side 1 about the origin, which
+        is stretched over the placement. Empty: all of it.
     fit : (str, str)
         "scale", "repeat" or "divide", along a placement's width and along its height (section 5.6).
     gap : (float, float)
@@ -115,6 +122,7 @@ class RectanglePlacement(PlacingOne):
     model: PlacementModel = field(metadata=stored(PlacementModel.from_dict, PlacementModel.to_dict))
     grounds: tuple[DrawnIn, ...] = field(metadata=stored(_read_grounds, _write_grounds))
     size: tuple[float, float] = field(metadata=stored(_read_pair, list))
+    outline: Ring = field(default=(), metadata=stored(_read_ring, list))
     fit: tuple[Fit, Fit] = field(default=("scale", "scale"), metadata=stored(_read_fit, list))
     gap: tuple[float, float] = field(default=(0.0, 0.0), metadata=stored(_read_pair, list))
     fill: tuple[bool, ...] = field(default=(), metadata=stored(_read_flags, list))
@@ -128,6 +136,8 @@ class RectanglePlacement(PlacingOne):
                 f"there are {len(self.grounds)} polygons and {len(self.fill)} signs to fill for {taught} examples; "
                 "give one of each per example"
             )
+        if self.outline and not (len(self.outline) >= 3 and signed_area(np.array(self.outline)) > 0.0):
+            raise InputError("the outline is no ring; give at least three corners, counter-clockwise")
         # A size, gap or fit that cannot be is found here, not in the middle of a replay.
         element_array(Rectangle(0.0, 0.0, *self.size), self.size, self.fit, self.gap)
 
@@ -168,7 +178,9 @@ class RectanglePlacement(PlacingOne):
 
     @property
     def footprint(self) -> NDArray[np.float64]:
-        """The library object's rectangle about its centre."""
+        """The library object's rectangle about its centre, or what of that it fills."""
+        if self.outline:
+            return np.array(self.outline) * self.size
         return Rectangle(0.0, 0.0, *self.size).ring
 
     @property

@@ -179,8 +179,19 @@ def test_it_reads_its_parents_and_all_below_them():
     assert read == {p.id for p in STREET.polygons}
 
 
+def test_an_outline_is_stretched_over_the_placements():
+    diamond = ((0.5, 0.0), (0.0, 0.5), (-0.5, 0.0), (0.0, -0.5))
+    whole, cut = applied(sills()), applied(sills(outline=diamond))
+    assert len(whole) == len(cut) > 4
+    for a, b in zip(whole, cut, strict=True):
+        assert b.polygon.area == pytest.approx(a.polygon.area / 2)
+        assert b.polygon.bounds == pytest.approx(a.polygon.bounds)
+
+
 def test_it_is_stored_with_its_model_and_gives_the_same_again():
-    operation = sills(fit=("repeat", "scale"), gap=(0.1, 0.0), threshold=0.4, fill=[True, False, True, True])
+    corner = ((0.5, -0.5), (0.5, 0.5), (-0.5, -0.5))
+    more = {"fit": ("repeat", "scale"), "gap": (0.1, 0.0), "outline": corner}
+    operation = sills(threshold=0.4, fill=[True, False, True, True], **more)
     tree = OperationsTree([Node("sills", operation)])
     again = OperationsTree.from_dict(json.loads(json.dumps(tree.to_dict())))
     assert again.to_dict() == tree.to_dict()
@@ -193,6 +204,11 @@ def test_it_is_stored_with_its_model_and_gives_the_same_again():
         ({"size": (0.0, 0.2)}, "has no area"),
         ({"gap": (-1.0, 0.0)}, "the distance along the width is -1.0; give a number that is not negative"),
         ({"fit": ("repeat", "wrap")}, "the fit along the height is 'wrap'; choose 'scale', 'repeat' or 'divide'"),
+        ({"outline": ((0.5, 0.0), (-0.5, 0.0))}, "the outline is no ring; give at least three corners"),
+        (
+            {"outline": ((0.0, 0.5), (0.5, -0.5), (-0.5, -0.5))},
+            "no ring; give at least three corners, counter-clockwise",
+        ),
         ({"fill": (True,)}, "4 polygons and 1 signs to fill for 4 examples"),
         ({"grounds": ()}, "0 polygons and 0 signs to fill for 4 examples; give one of each per example"),
     ],
