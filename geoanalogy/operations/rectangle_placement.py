@@ -193,8 +193,7 @@ class RectanglePlacement(PlacingOne):
         scene = layout.scene
         # What equals the arrangement of an example, but is not where that was drawn, gets what was drawn there.
         elsewhere = not any(ground.is_in(scene) for ground in self.grounds)
-        placing = self.model.placing(scene, LEAST_SCORE, include_examples=elsewhere, explained=False)
-        found = _each_once((yield from placing))
+        found = _each_once((yield from self.model.placing(scene, LEAST_SCORE, include_examples=elsewhere)))
         fill = self.fill or (False,) * len(self.grounds)
         drawn = [
             (taught.rectangle, taught.target, scene.polygon(ground.id), filled)

@@ -175,18 +175,24 @@ def distances(a: Array, b: Array) -> Array:
 
 
 def _distance(a: Array, b: Array) -> Array:
-    gaps, ways = [], []
-    for axis in (0, 1):
-        gap = b[axis] - a[axis + 2]
-        np.maximum(gap, a[axis] - b[axis + 2], out=gap)
-        gaps.append(np.maximum(gap, 0.0, out=gap))
-        way = (a[axis] + a[axis + 2]) - b[axis]
-        way -= b[axis + 2]
-        way /= 2
-        ways.append(way)
-    found = np.hypot(*gaps)
-    found += 0.25 * np.hypot(*ways)
+    gap = _squared([np.maximum(np.maximum(b[k] - a[k + 2], a[k] - b[k + 2]), 0.0) for k in (0, 1)])
+    way = _squared([(a[k] + a[k + 2]) - (b[k] + b[k + 2]) for k in (0, 1)])
+    way *= WAY_SQUARED
+    found = np.sqrt(gap, out=gap)
+    found += np.sqrt(way, out=way)
     return found
+
+
+#: The square of a quarter of half: sums of edges are twice the centres.
+WAY_SQUARED = 0.125**2
+
+
+def _squared(parts: list[Array]) -> Array:
+    x, y = parts
+    x *= x
+    y *= y
+    x += y
+    return x
 
 
 def gaps_between(drawn: dict[str, Array]) -> dict[str, Array]:

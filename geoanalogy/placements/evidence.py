@@ -371,8 +371,9 @@ class Company:
         free = overlap(boxes, every) <= EXCLUDING
         self.shown = len(present)
         self.anchors = anchors
-        self.rivals = ~free[:, : len(boxes)]
-        self.in_line = [(interval_overlap(boxes, every, axis) >= ALIGNED) & free for axis in (1, 0)]
+        # Pairs, not tables: most candidates have little to do with each other.
+        self.rivals = np.nonzero(~free[:, : len(boxes)])
+        self.in_line = [np.nonzero((interval_overlap(boxes, every, axis) >= ALIGNED) & free) for axis in (1, 0)]
 
     def evidence(self, strength: Array) -> Array:
         """The figures of `AMONG`, with any strength in place of the similarity.
@@ -389,17 +390,21 @@ class Company:
         n = len(strength)
         top = max(float(strength.max(initial=0.0)), 1e-9)
         force = np.concatenate([strength, np.full(self.shown, top)])
-        local = strength / np.maximum((self.rivals * strength).max(axis=1, initial=0.0), 1e-9)
+        row, rival = self.rivals
+        strongest_rival = np.zeros(n)
+        np.maximum.at(strongest_rival, row, strength[rival])
+        local = strength / np.maximum(strongest_rival, 1e-9)
         at_anchors = []
         for index in self.anchors:
             strongest = np.zeros(index.max(initial=0) + 1)
             np.maximum.at(strongest, index, force)
             at_anchors.append(strength / np.maximum(strongest[index[:n]], 1e-9))
-        # The strongest columns first: the best supporters are the first few that stand in line.
-        order = np.argsort(-force, kind="stable")
         supports = []
-        for aligned in self.in_line:
-            sorted_line = aligned[:, order]
-            counted = sorted_line & (np.cumsum(sorted_line, axis=1, dtype=np.int32) <= SUPPORTERS)
-            supports.append(counted @ force[order] / SUPPORTERS / top)
+        for row, other in self.in_line:
+            # By rows, the strongest first: the best supporters are the first few of each.
+            order = np.lexsort((-force[other], row))
+            row, given = row[order], force[other[order]]
+            rank = np.arange(len(row)) - np.searchsorted(row, row)
+            given = np.where(rank < SUPPORTERS, given, 0.0)
+            supports.append(np.bincount(row, given, minlength=n) / SUPPORTERS / top)
         return np.stack([strength / top, local, *at_anchors, *supports], axis=1)

@@ -240,7 +240,10 @@ class Lesson:
         """Weighted agreement (n, m, p, q) of coordinates (n, p, 3, 4) with those of all examples along one axis."""
         kept, weights = self.kept.boxes[key][:, :neighbours, axis], self._weights32[key][:, :neighbours, axis]
         agreement = axis_agreement(values, kept, self.widths[axis], self.options.tau)
-        return np.asarray(np.einsum("nmpqsr,mqsr->nmpq", agreement, weights))
+        # Positions and coordinates as one dimension: a longer innermost sum.
+        count = weights.shape[2] * weights.shape[3]
+        flat = agreement.reshape(*agreement.shape[:4], count)
+        return np.asarray(np.einsum("nmpqk,mqk->nmpq", flat, weights.reshape(*weights.shape[:2], count)))
 
     @cached_property
     def _weights32(self) -> dict[str, NDArray[Any]]:

@@ -1,8 +1,9 @@
 """Learning a placement from examples, and placing (chapter 5): the public face of the engine."""
 
 from collections import OrderedDict
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import cache, cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -49,15 +50,20 @@ class Placement:
     parent : Polygon
     novelty : float
         How far from anything that was taught, 0 to 1: where it is large, an example more would help.
-    relations : tuple of Relation
-        Why it is here: the elements it stands to as examples do, with weights, the surest first.
+    why : callable
+        Finds out why it is here, when somebody asks for its `relations`.
     """
 
     rectangle: Rectangle
     score: float
     parent: Polygon
     novelty: float
-    relations: tuple[Relation, ...] = ()
+    why: Callable[[], tuple[Relation, ...]] = field(default=tuple, compare=False, repr=False)
+
+    @cached_property
+    def relations(self) -> tuple[Relation, ...]:
+        """Why it is here: the elements it stands to as examples do, with weights, the surest first."""
+        return self.why()
 
 
 class PlacementModel:
@@ -119,7 +125,7 @@ class PlacementModel:
         return run(self.placing(scene, threshold, include_examples), progress)
 
     def placing(
-        self, scene: Scene, threshold: float | None = None, include_examples: bool = False, explained: bool = True
+        self, scene: Scene, threshold: float | None = None, include_examples: bool = False
     ) -> Stepper[list[Placement]]:
         """`place` as a stepper: one step per parent.
 
@@ -128,8 +134,6 @@ class PlacementModel:
         scene : Scene
         threshold : float, optional
         include_examples : bool
-        explained : bool
-            Whether results say why they are where they are; a replay does not ask.
 
         Returns
         -------
@@ -143,12 +147,10 @@ class PlacementModel:
         found: list[Placement] = []
         for i, parent in enumerate(parents):
             yield i / len(parents), f"placing in {self.label or 'polygon'} {i + 1} of {len(parents)}"
-            found += self._place_in(scene, parent, least, include_examples, explained)
+            found += self._place_in(scene, parent, least, include_examples)
         return sorted(found, key=lambda p: -p.score)
 
-    def _place_in(
-        self, scene: Scene, parent: Polygon, least: float, include_examples: bool, explained: bool
-    ) -> list[Placement]:
+    def _place_in(self, scene: Scene, parent: Polygon, least: float, include_examples: bool) -> list[Placement]:
         found: list[Placement] = []
         frames = self.orientation.frames(parent)
         for frame in frames:
@@ -171,8 +173,8 @@ class PlacementModel:
             if least > 0:
                 still = without_overlaps(boxes, score[index], drawn, self.options.allow_overlaps)
                 index, boxes, similar = index[still], boxes[still], similar[still]
-            why = self._reasons(arrangement, boxes) if explained else [()] * len(boxes)
-            for i, box, alike, relations in zip(index, boxes, similar, why, strict=True):
+            why = cache(partial(self._reasons, arrangement, boxes))
+            for k, (i, box, alike) in enumerate(zip(index, boxes, similar, strict=True)):
                 like = self.lesson.positive[np.argmax(alike[self.lesson.positive])]
                 found.append(
                     Placement(
@@ -180,7 +182,7 @@ class PlacementModel:
                         float(score[i]),
                         parent,
                         float(np.clip(1.0 - alike.max(), 0.0, 1.0)),
-                        relations,
+                        partial(_told, why, k),
                     )
                 )
             if include_examples:
@@ -355,13 +357,22 @@ def learn_placement(examples: Sequence[Example], options: PlacementOptions | Non
     parents = parents_of(kept)
     orientation = orientation_of(kept, parents)
     chosen = options or PlacementOptions()
-    lessons = []
-    for example, parent in zip(kept, parents, strict=True):
+    drawn: dict[Arrangement, list[int]] = {}
+    for i, (example, parent) in enumerate(zip(kept, parents, strict=True)):
         frame = orientation.frame_at(parent, np.array([example.rectangle.x, example.rectangle.y]))
-        lessons.append(teach(arrangement_of(example.scene, parent, frame), example.rectangle, example.target, chosen))
+        drawn.setdefault(arrangement_of(example.scene, parent, frame), []).append(i)
+    lessons: dict[int, tuple[Taught, Signature]] = {}
+    for arrangement, some in drawn.items():
+        taught = teach(arrangement, [(kept[i].rectangle, kept[i].target) for i in some], chosen)
+        lessons |= dict(zip(some, taught, strict=True))
+    ordered = [lessons[i] for i in range(len(kept))]
     return PlacementModel(
-        parents[0].label, orientation, Lesson.of([t for t, _ in lessons], [s for _, s in lessons], chosen)
+        parents[0].label, orientation, Lesson.of([t for t, _ in ordered], [s for _, s in ordered], chosen)
     )
+
+
+def _told(why: Callable[[], list[tuple[Relation, ...]]], number: int) -> tuple[Relation, ...]:
+    return why()[number]
 
 
 def _parallel(angle: Any, frame: float) -> Any:

@@ -1,5 +1,6 @@
 """What a model keeps of one example."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -96,36 +97,40 @@ def coverage(arrangement: Arrangement, boxes: Array) -> tuple[dict[str, Array], 
 
 
 def teach(
-    arrangement: Arrangement, rectangle: Rectangle, target: float, options: PlacementOptions
-) -> tuple[Taught, Signature]:
-    """What is kept of one example.
+    arrangement: Arrangement, drawn: Sequence[tuple[Rectangle, float]], options: PlacementOptions
+) -> list[tuple[Taught, Signature]]:
+    """What is kept of the examples that were drawn in one arrangement.
 
     Parameters
     ----------
     arrangement : Arrangement
-        Where it was drawn.
-    rectangle : Rectangle
-    target : float
+    drawn : sequence of (Rectangle, float)
+        With the target of each.
     options : PlacementOptions
 
     Returns
     -------
-    taught : Taught
-    kept : Signature
-        One row.
+    list of (Taught, Signature)
+        In the same order; each signature has one row.
     """
-    box, quarter = rectangle.box(arrangement.frame)
-    covered, touched = coverage(arrangement, box[None])
-    return (
-        Taught(
-            rectangle,
-            box[2:] - box[:2],
-            quarter,
-            target,
-            arrangement.fingerprint,
-            float(arrangement.share_outside(box[None])[0]),
-            {label: float(v[0]) for label, v in covered.items()},
-            {label: float(v[0]) for label, v in touched.items()},
-        ),
-        signature(arrangement, box[None], options.neighbours),
-    )
+    laid = [rectangle.box(arrangement.frame) for rectangle, _ in drawn]
+    boxes = np.array([box for box, _ in laid])
+    covered, touched = coverage(arrangement, boxes)
+    outside = arrangement.share_outside(boxes)
+    seen = signature(arrangement, boxes, options.neighbours)
+    return [
+        (
+            Taught(
+                rectangle,
+                box[2:] - box[:2],
+                quarter,
+                target,
+                arrangement.fingerprint,
+                float(outside[i]),
+                {label: float(v[i]) for label, v in covered.items()},
+                {label: float(v[i]) for label, v in touched.items()},
+            ),
+            seen.rows([i]),
+        )
+        for i, ((rectangle, target), (box, quarter)) in enumerate(zip(drawn, laid, strict=True))
+    ]
