@@ -4,6 +4,7 @@ import bpy
 
 from ..geoanalogy.blender import names
 from ..geoanalogy.blender.instances import clear_results
+from ..geoanalogy.blender.masses import clear_masses
 from ..geoanalogy.blender.tree_store import recorded_nodes, tree_of
 from .edit import Edit, needs_operations
 
@@ -20,6 +21,7 @@ class GEOANALOGY_OT_clear(Edit, bpy.types.Operator):
 
     def edit(self, context):
         """Delete them."""
+        clear_masses(context.scene)
         clear_results(context.scene)
         for node in recorded_nodes(tree_of(context.scene)):
             node[names.COUNT] = 0

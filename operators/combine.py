@@ -4,17 +4,9 @@ import bpy
 from bpy.props import EnumProperty, StringProperty
 
 from ..geoanalogy.blender.building import label_here, operation_steps
+from ..geoanalogy.blender.node_settings import KINDS, TARGETS
 from ..geoanalogy.operations.boolean import Boolean
 from .edit import LongEdit, needs_operations
-
-KINDS = [
-    ("merge", "Merge", "They become one solid"),
-    ("subtract", "Subtract", "They are cut out"),
-]
-TARGETS = [
-    ("surface", "Own Surface", "The solid that they stand on"),
-    ("siblings", "Siblings", "The solids on the same surface that they intersect"),
-]
 
 
 class GEOANALOGY_OT_combine(LongEdit, bpy.types.Operator):
@@ -23,7 +15,9 @@ class GEOANALOGY_OT_combine(LongEdit, bpy.types.Operator):
     bl_idname = "geoanalogy.combine"
     bl_label = "Combine"
 
-    label: StringProperty(name="Label", description="Of the solids; empty: that of the active object")
+    label: StringProperty(
+        name="Label", description="Of the solids; empty: that of the active object", options={"SKIP_SAVE"}
+    )
     kind: EnumProperty(name="Kind", items=KINDS)
     target: EnumProperty(name="With", items=TARGETS)
 

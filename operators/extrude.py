@@ -4,16 +4,10 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, StringProperty
 
 from ..geoanalogy.blender.building import extrusion_of, label_here, operation_steps
+from ..geoanalogy.blender.node_settings import ROOFS
 from ..geoanalogy.geometry.extrusion import FaceLabels
 from ..geoanalogy.geometry.roof import Roof
 from .edit import LongEdit, needs_object_mode
-
-ROOFS = [
-    ("flat", "Flat", "A flat cap"),
-    ("hip", "Hip Roof", "A roof that slopes to all sides"),
-    ("gable", "Gable Roof", "A roof with gables over the short sides"),
-    ("mansard", "Mansard Roof", "A roof whose lower faces are steeper"),
-]
 
 #: Faces of an extruded solid, as the engine names them, and what they are.
 FACES = {
@@ -31,7 +25,9 @@ class GEOANALOGY_OT_extrude(LongEdit, bpy.types.Operator):
     bl_idname = "geoanalogy.extrude"
     bl_label = "Extrude"
 
-    label: StringProperty(name="Label", description="Of what is extruded; empty: that of the active object")
+    label: StringProperty(
+        name="Label", description="Of what is extruded; empty: that of the active object", options={"SKIP_SAVE"}
+    )
     height: FloatProperty(name="Height", default=3.0, subtype="DISTANCE")
     factor: FloatVectorProperty(
         name="Random Factor", description="Least and greatest multiplier of the height", size=2, default=(1.0, 1.0)

@@ -3,9 +3,9 @@
 import bpy
 
 from ..geoanalogy.blender.evaluating import mark_stale
-from ..geoanalogy.blender.refresh import show
 from ..geoanalogy.blender.region_results import show_targets
-from ..geoanalogy.blender.tree_store import works_on_drawings
+from ..geoanalogy.blender.showing import show_again
+from ..geoanalogy.blender.tree_store import builds, works_on_drawings
 from .edit import Edit, active_operation, needs_operations
 
 
@@ -26,8 +26,9 @@ class GEOANALOGY_OT_mute_operation(Edit, bpy.types.Operator):
         if works_on_drawings(node):
             show_targets(context.scene, node)
             return f"{node.name} {'muted' if node.mute else 'no longer muted'}"
-        show(context.scene, node)
-        mark_stale(node.id_data, node)
+        show_again(context, node)
+        if not builds(node.id_data):
+            mark_stale(node.id_data, node)
         return f"{node.name} {'muted' if node.mute else 'no longer muted'}"
 
 

@@ -4,18 +4,10 @@ import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.building import label_here, operation_steps, weights_of
+from ..geoanalogy.blender.building import label_here, operation_steps
+from ..geoanalogy.blender.node_settings import WITHIN, weights_of
 from ..geoanalogy.operations.selection import Selection
 from .edit import LongEdit, needs_object_mode
-
-WITHIN = [
-    ("each", "Each by Itself", "Each draws its own set"),
-    (
-        "parent",
-        "Within the Parent",
-        "Those of one parent are divided so that the shares hold there as well as they can",
-    ),
-]
 
 
 class GEOANALOGY_OT_select_elements(LongEdit, bpy.types.Operator):
@@ -24,7 +16,9 @@ class GEOANALOGY_OT_select_elements(LongEdit, bpy.types.Operator):
     bl_idname = "geoanalogy.select_elements"
     bl_label = "Select"
 
-    label: StringProperty(name="Label", description="Of what is divided; empty: that of the active object")
+    label: StringProperty(
+        name="Label", description="Of what is divided; empty: that of the active object", options={"SKIP_SAVE"}
+    )
     weights: StringProperty(
         name="Weights",
         description="One number per set, with commas between them; one alone below 1: the share that is chosen",

@@ -4,6 +4,7 @@ import bpy
 
 from ..geoanalogy.blender import names
 from ..geoanalogy.blender.tree_store import drawing_nodes, ordered_nodes, tree_of
+from ..geoanalogy.blender.tree_types import ICONS
 from .base import SidebarPanel, hint
 
 
@@ -19,7 +20,7 @@ class GEOANALOGY_UL_operations(bpy.types.UIList):
         if not hasattr(operation, "items"):
             row.label(text=item.name, icon="QUESTION")
             return
-        row.label(text=item.label or item.name, icon=_icon(operation.get("type")))
+        row.label(text=item.label or item.name, icon=ICONS.get(operation.get("type"), "NODE"))
         if item.get(names.STALE):
             row.label(text="", icon="FILE_REFRESH")
         count = row.row()
@@ -34,19 +35,6 @@ class GEOANALOGY_UL_operations(bpy.types.UIList):
         others = iter(range(len(rank), len(nodes)))
         order = [rank[node.name] if node.name in rank else next(others) for node in nodes]
         return shown, order
-
-
-def _icon(kind):
-    icons = {
-        "pose placement": "OUTLINER_OB_GROUP_INSTANCE",
-        "array": "MOD_ARRAY",
-        "local coordinates": "MOD_LATTICE",
-        "scatter": "STICKY_UVS_DISABLE",
-        "choice": "RNDCURVE",
-        "placement": "SELECT_SET",
-        "region transfer": "BRUSH_DATA",
-    }
-    return icons.get(kind, "NODE")
 
 
 class GEOANALOGY_PT_operations(SidebarPanel, bpy.types.Panel):

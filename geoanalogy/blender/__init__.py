@@ -10,7 +10,7 @@ example to its results; `instances`, which shows them; `refresh` and `correction
 
 from .registration import register_in_order, unregister_in_order
 
-MODULES = (".command", ".properties", ".tree_types", ".showing", ".handlers")
+MODULES = (".command", ".properties", ".tree_types", ".tree_links", ".showing", ".handlers")
 
 
 def register():

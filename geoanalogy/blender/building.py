@@ -76,29 +76,6 @@ def extrusion_of(
     )
 
 
-def weights_of(text: str) -> tuple[float, ...]:
-    """The weights of a selection as they are typed.
-
-    Parameters
-    ----------
-    text : str
-        Numbers with commas between them.
-
-    Returns
-    -------
-    tuple of float
-
-    Raises
-    ------
-    InputError
-        For anything else.
-    """
-    try:
-        return tuple(float(part) for part in text.split(",") if part.strip())
-    except ValueError:
-        raise InputError(f"the weights {text!r} are no numbers; give one per set, with commas between them") from None
-
-
 def label_here(context: bpy.types.Context, wanted: str) -> str:
     """The label of what is to be worked on.
 

@@ -27,6 +27,7 @@ from .planes import Plane
 from .proposals import write_proposals
 from .refresh import examples_of, ground_for, in_order
 from .tree_store import (
+    builds,
     engine_tree,
     is_building,
     ordered_nodes,
@@ -102,6 +103,8 @@ class Surroundings:
         The operations on that plane, inputs first.
     engine : OperationsTree
         All operations as the engine's; those on other planes pass on what comes in.
+    problems : tuple of str
+        What of the scene has been left out, a sentence each.
     """
 
     scene: bpy.types.Scene
@@ -110,6 +113,7 @@ class Surroundings:
     ground: Ground
     nodes: list[bpy.types.Node]
     engine: OperationsTree
+    problems: tuple[str, ...] = ()
 
     @property
     def plane(self) -> Plane:
@@ -127,7 +131,9 @@ class Surroundings:
         return 0 if self.tree is None else self.tree.seed
 
 
-def read_surroundings(context: bpy.types.Context, items: Iterable[bpy.types.Object] = ()) -> list[Surroundings]:
+def read_surroundings(
+    context: bpy.types.Context, items: Iterable[bpy.types.Object] = (), chosen: Iterable[str] | None = None
+) -> list[Surroundings]:
     """Read a scene: its planes and the operations on each.
 
     Parameters
@@ -135,6 +141,9 @@ def read_surroundings(context: bpy.types.Context, items: Iterable[bpy.types.Obje
     context : bpy.types.Context
     items : iterable of bpy.types.Object
         Objects that do not count as ground, besides the examples of operations.
+    chosen : iterable of str, optional
+        Names of the objects of the plan that count, with what lies in them and what they lie in; empty: all; None:
+        those that the tree is applied to.
 
     Returns
     -------
@@ -151,7 +160,13 @@ def read_surroundings(context: bpy.types.Context, items: Iterable[bpy.types.Obje
     depsgraph = context.evaluated_depsgraph_get()
     tree = tree_of(scene)
     without = examples_of(tree) | {item.name for item in items}
-    grounds = restricted(read_grounds(scene, depsgraph, without), tree)
+    if builds(tree):
+        # What was drawn as an example stays one, also where the tree has come from a file without it.
+        without |= {item.name for item in scene.objects if names.DRAWN in item}
+    parcels = frozenset(parcels_of(tree) if chosen is None else chosen)
+    # Where many parcels are built on, one that cannot be used does not stand in the way of the others.
+    problems: list[str] | None = [] if builds(tree) else None
+    grounds = restricted(read_grounds(scene, depsgraph, without, problems), parcels)
     nodes = ordered_nodes(tree)
     engine = engine_tree(nodes, evaluations)
     where = {node.name: None if works_everywhere(node) else ground_for(grounds, plane_of(node)) for node in nodes}
@@ -165,24 +180,40 @@ def read_surroundings(context: bpy.types.Context, items: Iterable[bpy.types.Obje
         own = [node for node in nodes if where[node.name] is None or where[node.name] is ground]
         working = {node.name for node in own}
         there = [replace(node, muted=node.muted or node.id not in working) for node in engine.nodes]
-        found.append(Surroundings(scene, depsgraph, tree, ground, own, OperationsTree(there, evaluations)))
+        engine_there = OperationsTree(there, evaluations)
+        found.append(Surroundings(scene, depsgraph, tree, ground, own, engine_there, tuple(problems or ())))
     return found
 
 
-def restricted(grounds: list[Ground], tree: bpy.types.NodeTree | None) -> list[Ground]:
-    """The part of a scene that a tree is applied to.
+def parcels_of(tree: bpy.types.NodeTree | None) -> list[str]:
+    """Names of the objects of the plan that a tree is applied to.
 
     Parameters
     ----------
-    grounds : list of Ground
     tree : bpy.types.NodeTree or None
 
     Returns
     -------
-    list of Ground
-        All of it, unless parcels have been chosen that are still there.
+    list of str
+        Empty: all.
     """
-    chosen = frozenset(json.loads(tree.get(names.APPLIED_TO, "[]")) if tree else ())
+    return [] if tree is None else json.loads(tree.get(names.APPLIED_TO, "[]"))
+
+
+def restricted(grounds: list[Ground], chosen: frozenset[str]) -> list[Ground]:
+    """A part of a scene.
+
+    Parameters
+    ----------
+    grounds : list of Ground
+    chosen : frozenset of str
+        Names of objects.
+
+    Returns
+    -------
+    list of Ground
+        What is chosen, with what lies in it and what it lies in; all, where nothing of it is there.
+    """
     if not chosen:
         return grounds
     parts = [part for part in (only_in(ground, chosen) for ground in grounds) if part.scene.polygons]

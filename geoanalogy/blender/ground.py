@@ -19,7 +19,7 @@ from ..geometry.scene import Scene
 from . import names
 from .footprints import footprint_ring_of
 from .planes import SAME_PLANE_ASIDE, Plane, best_plane, extent
-from .shapes import KINDS, Ring, rings_of
+from .shapes import KINDS, Ring, has_labelled_faces, labelled_faces, rings_of
 
 Array = NDArray[np.float64]
 
@@ -58,6 +58,12 @@ class _Drawn:
     rings: list[Ring]
     plane: Plane
     size: float
+    part: int | None = None
+
+    @property
+    def name(self) -> str:
+        """The name of the object, with the number of the part behind it where it is a part of a solid."""
+        return self.item.name if self.part is None else f"{self.item.name}/{self.part}"
 
 
 @dataclass
@@ -137,7 +143,12 @@ def label_of(item: bpy.types.Object, scene: bpy.types.Scene) -> str:
     return label
 
 
-def read_grounds(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, without: Collection[str] = ()) -> list[Ground]:
+def read_grounds(
+    scene: bpy.types.Scene,
+    depsgraph: bpy.types.Depsgraph,
+    without: Collection[str] = (),
+    problems: list[str] | None = None,
+) -> list[Ground]:
     """The arrangements of a Blender scene.
 
     Parameters
@@ -147,6 +158,8 @@ def read_grounds(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, without
         Of that scene, up to date.
     without : collection of str
         Names of objects that do not count: examples of operations.
+    problems : list of str, optional
+        What cannot be used is left out, and a sentence about it added here.
 
     Returns
     -------
@@ -156,8 +169,14 @@ def read_grounds(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, without
     Raises
     ------
     InputError
-        For what cannot be used, naming the object; where nothing is labelled.
+        For what cannot be used where no problems are collected, naming the object; where nothing is labelled.
     """
+
+    def fail(error: InputError) -> None:
+        if problems is None:
+            raise error
+        problems.append(f"{error}; it is left out")
+
     labels = labels_of(scene)
     plan = scene.geoanalogy.plan
     results = results_collection(scene)
@@ -166,29 +185,46 @@ def read_grounds(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, without
     drawn, solid = [], []
     for item in sorted(scene.objects, key=lambda item: item.name):
         name = item.name
-        if name in made or name in without or item.type not in KINDS or not (name in labels or name in planned):
+        if name in made or name in without or item.type not in KINDS:
             continue
-        if name not in labels:
-            raise InputError(f"object {name!r} of the plan has no label; say what it is in step 1")
-        flat = _drawn(item, depsgraph)
-        if flat is None:
+        faces = has_labelled_faces(item)
+        if not (name in labels or name in planned or faces):
+            continue
+        try:
+            if name not in labels and not faces:
+                raise InputError(f"object {name!r} of the plan has no label; say what it is in step 1")
+            flat = _drawn(item, depsgraph) if name in labels or not faces else None
+            chosen = _chosen(item, depsgraph) if faces and flat is None else []
+        except InputError as error:
+            fail(error)
+            continue
+        drawn += chosen if flat is None else [flat]
+        if flat is None and name in labels:
             solid.append(item)
-        else:
-            drawn.append(flat)
     if not drawn:
         raise InputError(
             "the scene has no labelled outlines; label the plan's meshes, curves or strokes in step 1, or import a plan"
         )
     layers: list[_Layer] = []
-    for flat in sorted(drawn, key=lambda d: (-d.size, d.item.name)):
+    for flat in sorted(drawn, key=lambda d: (-d.size, d.name)):
         layer = next((one for one in layers if _lies_on(flat, one)), None)
+        where = layer or _Layer(flat.plane, flat.size)
+        try:
+            where.polygons[flat.name] = _polygons(flat, where.plane, labels.get(flat.item.name, ""))
+        except InputError as error:
+            fail(error)
+            continue
         if layer is None:
-            layers.append(layer := _Layer(flat.plane, flat.size))
-        layer.polygons[flat.item.name] = _polygons(flat, layer.plane, labels[flat.item.name])
+            layers.append(where)
+    if not layers:
+        raise InputError("nothing of the plan can be used; correct its outlines")
     for item in solid:
         layer = min(layers, key=lambda one: abs(one.plane.to_plane([item.matrix_world.translation])[0, 2]))
-        ring = footprint_ring_of(item, layer.plane, depsgraph)
-        layer.polygons[item.name] = [_polygon(item, layer.plane, [ring], item.name, labels[item.name])]
+        try:
+            ring = footprint_ring_of(item, layer.plane, depsgraph)
+            layer.polygons[item.name] = [_polygon(item, layer.plane, [ring], item.name, labels[item.name])]
+        except InputError as error:
+            fail(error)
     return [_ground(layer, scene, depsgraph) for layer in layers]
 
 
@@ -236,7 +272,8 @@ def _ground(layer: _Layer, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgrap
     polygons = [p for name in sorted(layer.polygons) for p in layer.polygons[name]]
     alternatives = {}
     for name in layer.polygons:
-        wanted = scene.objects[name].get(names.VALIDATION)
+        drawn = scene.objects.get(name)
+        wanted = None if drawn is None else drawn.get(names.VALIDATION)
         if wanted is None:
             continue
         item = scene.objects.get(str(wanted))
@@ -269,6 +306,17 @@ def _drawn(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> _Drawn | N
     return _Drawn(item, rings, plane, extent(points))
 
 
+def _chosen(item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[_Drawn]:
+    """The faces of a solid that have a label of their own."""
+    found = []
+    for rings in labelled_faces(item, depsgraph):
+        plane = best_plane([r.points for r in rings], f"object {item.name!r}")
+        if plane is not None:
+            size = extent(np.vstack([r.points for r in rings]))
+            found.append(_Drawn(item, rings, plane, size, rings[0].region))
+    return found
+
+
 def _stands_out(item: bpy.types.Object, plane: Plane, size: float) -> bool:
     """Whether a mesh whose outlines are flat has vertices off their plane: a tent, a cup."""
     corners = np.array(item.bound_box) @ np.array(item.matrix_world)[:3, :3].T + np.array(item.matrix_world)[:3, 3]
@@ -282,8 +330,8 @@ def _polygons(flat: _Drawn, plane: Plane, label: str) -> list[Polygon]:
     found = []
     parts = [part for rings in regions.values() for part in _nested(rings, plane)]
     for i, (rings, own) in enumerate(parts):
-        id = flat.item.name if len(parts) == 1 else f"{flat.item.name}/{i}"
-        found.append(_polygon(flat.item, plane, rings, id, own or label))
+        id = flat.name if len(parts) == 1 else f"{flat.name}/{i}"
+        found.append(_polygon(flat.item if flat.part is None else None, plane, rings, id, own or label))
     return found
 
 
@@ -313,7 +361,9 @@ def _holds(ring: Array, point: Array) -> bool:
     return bool((spans & (point[0] < x)).sum() % 2)
 
 
-def _polygon(item: bpy.types.Object, plane: Plane, rings: list[Array], id: str, label: str) -> Polygon:
+def _polygon(item: bpy.types.Object | None, plane: Plane, rings: list[Array], id: str, label: str) -> Polygon:
+    if item is None:
+        return Polygon(rings[0], label=label, id=id, holes=rings[1:])
     orientation = item.get(names.ORIENTATION)
     if orientation is not None:
         x, y = plane.to_plane(np.array(item.matrix_world)[:3, 0] + plane.origin)[:2]

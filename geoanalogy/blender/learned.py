@@ -9,8 +9,8 @@ import bpy
 from ..operations.element import Element
 from . import names
 from .explanation import Reason
+from .node_settings import stored_settings
 from .refresh import proposed_by
-from .tree_types import stored_settings
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,8 @@
 Whoever makes scenes by a script sets the custom properties of objects by these names.
 """
 
-#: On objects, collections and materials: what kind of thing it is. An empty label of a collection means its name.
+#: On objects, collections and materials: what kind of thing it is. An empty label of a collection means its name. Faces
+#: of a solid whose material has a label are surfaces of their own.
 LABEL = "ga_label"
 
 #: On objects: name of the object that is the parent (none: found by containment).
@@ -38,9 +39,6 @@ MASS = "ga_mass"
 
 #: On meshes of solids: which surface each face belongs to (an attribute), and the ids of these surfaces.
 SURFACE, SURFACES = "ga_surface", "ga_surfaces"
-
-#: On materials of faces: these faces are surfaces of their own, whatever the object is.
-CHOSEN = "ga_chosen"
 
 #: The collection that holds all results, with a collection per operation.
 COLLECTION = "GeoAnalogy"

@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 
 from ..errors import InputError
+from ..geometry.surface import GROUND
 from ..operations.decisions import Decisions
 from ..operations.layout import Layout
 from ..operations.node import Node
@@ -166,7 +167,7 @@ def rejected_steps(context: bpy.types.Context, items: Iterable[bpy.types.Object]
     others = []
     for item in items:
         node = tree.nodes.get(item[names.NODE])
-        if node is not None and is_placement(node):
+        if node is not None and is_placement(node) and not _on_surface(item, node):
             by_node.setdefault(node.name, []).append(item[names.KEY])
         else:
             others.append(item)
@@ -187,6 +188,12 @@ def rejected_steps(context: bpy.types.Context, items: Iterable[bpy.types.Object]
             count += 1
         yield from _again_steps(context, node, [*rejected_by(node), *more], decisions)
     return count + (decide(context, others, "reject") if others or not count else 0)
+
+
+def _on_surface(item: bpy.types.Object, node: bpy.types.Node) -> bool:
+    """Whether a result stands on a surface of a solid: many are alike, and what one of them lacks teaches nothing."""
+    found = next((e for e in proposed_by(node) if e.key == item[names.KEY]), None)
+    return found is not None and found.surface != GROUND
 
 
 def forgotten_steps(context: bpy.types.Context, node: bpy.types.Node) -> Stepper[int]:

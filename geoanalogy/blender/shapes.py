@@ -13,6 +13,9 @@ from .loops import chains, joined_faces, outlines
 
 Array = NDArray[np.float64]
 
+#: Cosine of the angle between faces up to which they lie in one plane: half a degree.
+IN_ONE_PLANE = 0.99996
+
 #: Kinds of objects that have a shape.
 KINDS = ("MESH", "CURVE", "SURFACE", "FONT", "META", "GREASEPENCIL", "EMPTY")
 
@@ -60,7 +63,7 @@ def rings_of(drawn: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[Ri
     name = f"object {drawn.name!r}"
     to_world = np.array(drawn.matrix_world)
     if drawn.type == "MESH":
-        rings = _mesh_rings(drawn, depsgraph, name)
+        rings = _mesh_rings(drawn, depsgraph, name, False)
     elif drawn.type == "CURVE":
         filled = drawn.data.dimensions == "2D"
         rings = [Ring(points, 0 if filled else i) for i, points in enumerate(curve_rings(drawn.data, name))]
@@ -71,22 +74,61 @@ def rings_of(drawn: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[Ri
     return [Ring(_transformed(r.points, to_world), r.region, label=r.label) for r in rings]
 
 
+def has_labelled_faces(item: bpy.types.Object) -> bool:
+    """Whether an object may have faces that are surfaces of their own: one of its materials has a label.
+
+    Parameters
+    ----------
+    item : bpy.types.Object
+
+    Returns
+    -------
+    bool
+    """
+    return item.type == "MESH" and any(
+        slot.material is not None and names.LABEL in slot.material for slot in item.material_slots
+    )
+
+
+def labelled_faces(drawn: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> list[list[Ring]]:
+    """The flat parts of a mesh whose material has a label.
+
+    Parameters
+    ----------
+    drawn : bpy.types.Object
+        A mesh.
+    depsgraph : bpy.types.Depsgraph
+        Modifiers are evaluated in it.
+
+    Returns
+    -------
+    list of list of Ring
+        The outline and the holes of each part: faces that share edges, a plane and a material are one.
+    """
+    to_world = np.array(drawn.matrix_world)
+    parts: dict[int, list[Ring]] = {}
+    for r in _mesh_rings(drawn, depsgraph, f"object {drawn.name!r}", True):
+        if r.label:
+            parts.setdefault(r.region, []).append(Ring(_transformed(r.points, to_world), r.region, label=r.label))
+    return list(parts.values())
+
+
 def _transformed(points: Array, matrix: Array) -> Array:
     return points @ matrix[:3, :3].T + matrix[:3, 3]
 
 
-def _mesh_rings(drawn: bpy.types.Object, depsgraph: bpy.types.Depsgraph, name: str) -> list[Ring]:
+def _mesh_rings(drawn: bpy.types.Object, depsgraph: bpy.types.Depsgraph, name: str, flat_parts: bool) -> list[Ring]:
     if drawn.mode == "EDIT":
         drawn.update_from_editmode()
     source = drawn.evaluated_get(depsgraph) if drawn.modifiers else drawn
     mesh = source.to_mesh()
     try:
-        return _rings_of_mesh(mesh, drawn, name)
+        return _rings_of_mesh(mesh, drawn, name, flat_parts)
     finally:
         source.to_mesh_clear()
 
 
-def _rings_of_mesh(mesh: bpy.types.Mesh, drawn: bpy.types.Object, name: str) -> list[Ring]:
+def _rings_of_mesh(mesh: bpy.types.Mesh, drawn: bpy.types.Object, name: str, flat_parts: bool) -> list[Ring]:
     points = vertices_of(mesh)
     if not len(mesh.polygons):
         edges = np.empty(2 * len(mesh.edges), dtype=np.int32)
@@ -104,9 +146,11 @@ def _rings_of_mesh(mesh: bpy.types.Mesh, drawn: bpy.types.Object, name: str) -> 
     first = np.concatenate([[0], np.cumsum(total)[:-1]])
     following = np.arange(corners) + 1
     following[first + total - 1] = first
-    each = faces == 1 or drawn.get(names.FACES, "joined") == "each"
+    each = faces == 1 or (drawn.get(names.FACES, "joined") == "each" and not flat_parts)
+    if flat_parts:
+        edge = _apart(mesh, face, edge, material)
     region = np.arange(faces) if each else joined_faces(face, edge.astype(np.intp), faces)
-    outer = np.ones(corners, dtype=bool) if each else np.bincount(edge, minlength=len(mesh.edges))[edge] == 1
+    outer = np.ones(corners, dtype=bool) if each else np.bincount(edge)[edge] == 1
     labels = [slot.material.get(names.LABEL, "") if slot.material else "" for slot in drawn.material_slots]
     rings = []
     order = np.argsort(region[face], kind="stable")
@@ -119,6 +163,21 @@ def _rings_of_mesh(mesh: bpy.types.Mesh, drawn: bpy.types.Object, name: str) -> 
         loops = outlines(vertex[own].astype(np.intp), vertex[following[own]].astype(np.intp))
         rings += [Ring(points[loop], i, label=label) for loop in loops]
     return rings
+
+
+def _apart(mesh: bpy.types.Mesh, face: Array, edge: Array, material: Array) -> Array:
+    """The edge of each corner, where edges between faces of different planes or materials are two."""
+    normals = np.empty(3 * len(mesh.polygons), dtype=np.float32)
+    mesh.polygons.foreach_get("normal", normals)
+    normals = normals.reshape(-1, 3)
+    order = np.argsort(edge, kind="stable")
+    pairs = np.flatnonzero(edge[order][1:] == edge[order][:-1])
+    one, other = face[order[pairs]], face[order[pairs + 1]]
+    bent = np.einsum("ij,ij->i", normals[one], normals[other]) < IN_ONE_PLANE
+    parted = order[pairs[bent | (material[one] != material[other])] + 1]
+    apart = edge.copy()
+    apart[parted] = len(mesh.edges) + np.arange(len(parted))
+    return apart
 
 
 def vertices_of(mesh: bpy.types.Mesh) -> Array:

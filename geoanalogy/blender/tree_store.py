@@ -197,10 +197,11 @@ def ordered_nodes(tree: bpy.types.NodeTree | None) -> list[bpy.types.Node]:
 
 def _inputs_first(nodes: Sequence[bpy.types.Node]) -> list[bpy.types.Node]:
     waiting = list(nodes)
+    sources = {node.name: [source.name for source, _ in sources_of(node)] for node in nodes}
     order: list[bpy.types.Node] = []
     done: set[str] = set()
     while waiting:
-        ready = next((n for n in waiting if all(s.name in done for s, _ in sources_of(n))), waiting[0])
+        ready = next((n for n in waiting if done.issuperset(sources[n.name])), waiting[0])
         waiting.remove(ready)
         order.append(ready)
         done.add(ready.name)
@@ -380,11 +381,11 @@ def add_node(tree: bpy.types.NodeTree, operation: Node, placed: Sequence[Placed]
     """
     node = tree.nodes.new(names.OPERATION_NODE)
     node.name = operation.id
+    tree.pop(names.BUILD_ON, None)
     write_operation(node, operation)
     write_placed(node, placed, plane)
     sources = [tree.nodes[link.node] for link in operation.inputs]
-    for link, source in zip(operation.inputs, sources, strict=True):
-        tree.links.new(source.outputs[link.output], node.inputs[0])
+    link_inputs(node, [source.outputs[link.output] for link, source in zip(operation.inputs, sources, strict=True)])
     rows = [other.location[1] for other in tree.nodes if other != node]
     node.location = (
         (max(source.location[0] for source in sources) + NODE_GAP, sources[0].location[1])
@@ -393,6 +394,26 @@ def add_node(tree: bpy.types.NodeTree, operation: Node, placed: Sequence[Placed]
     )
     tree.nodes.active = node
     return node
+
+
+def link_inputs(node: bpy.types.Node, sockets: Sequence[bpy.types.NodeSocket]) -> None:
+    """Link outputs to a node that has no input yet.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+    sockets : sequence of bpy.types.NodeSocket
+        In this order, whichever of its links a Blender lists first.
+    """
+    links = node.id_data.links
+    for socket in sockets:
+        links.new(socket, node.inputs[0])
+    found = [link.from_socket for link in node.inputs[0].links]
+    if len(sockets) > 1 and found == list(reversed(sockets)):
+        for link in list(node.inputs[0].links):
+            links.remove(link)
+        for socket in reversed(sockets):
+            links.new(socket, node.inputs[0])
 
 
 def write_placed(node: bpy.types.Node, placed: Sequence[Placed], plane: Plane) -> None:
@@ -405,7 +426,8 @@ def write_placed(node: bpy.types.Node, placed: Sequence[Placed], plane: Plane) -
     plane : Plane
     """
     node[names.EXAMPLES] = {
-        str(i): {"mesh": one.mesh, "object": one.item, "rest": one.rest.ravel().tolist()}
+        str(i): {"mesh": one.mesh, "rest": one.rest.ravel().tolist()}
+        | ({} if one.item is None else {"object": one.item})
         | ({} if one.target is None else {"target": one.target})
         for i, one in enumerate(placed)
     }

@@ -4,16 +4,32 @@ The nodes carry their operation as nested custom properties (see `tree_store`), 
 add-on; what is registered here only shows them.
 """
 
-from collections.abc import Mapping
-
 import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 
 from . import names
+from .node_settings import EDITED, BuildingSettings, stored_settings
 from .plain import to_property
 
-#: Called after a setting that only sifts results has been changed; `refresh` puts itself here.
+#: What the kinds of operations are drawn with.
+ICONS = {
+    "pose placement": "OUTLINER_OB_GROUP_INSTANCE",
+    "array": "MOD_ARRAY",
+    "local coordinates": "MOD_LATTICE",
+    "scatter": "STICKY_UVS_DISABLE",
+    "choice": "RNDCURVE",
+    "placement": "SELECT_SET",
+    "extrusion": "MOD_SOLIDIFY",
+    "boolean": "MOD_BOOLEAN",
+    "selection": "UV_SYNC_SELECT",
+    "region transfer": "BRUSH_DATA",
+}
+
+#: Called after a setting that only sifts results has been changed; `showing` puts itself here.
 on_sifted = []
+
+#: Called after links of a tree have been changed; `tree_links` puts itself here.
+on_linked = []
 
 
 class GEOANALOGY_NT_tree(bpy.types.NodeTree):
@@ -40,6 +56,10 @@ class GEOANALOGY_NT_tree(bpy.types.NodeTree):
 
     active_index: IntProperty(name="Active Operation", get=_active, set=_activate, options={"SKIP_SAVE"})
 
+    def update(self):
+        for look in on_linked:
+            look(self)
+
 
 class GEOANALOGY_NS_layout(bpy.types.NodeSocket):
     """What an operation gets and what it leaves behind."""
@@ -53,23 +73,6 @@ class GEOANALOGY_NS_layout(bpy.types.NodeSocket):
     @classmethod
     def draw_color_simple(cls):
         return (0.36, 0.69, 0.54, 1.0)
-
-
-def stored_settings(node: bpy.types.Node) -> Mapping[str, object]:
-    """The settings of a node's operation as they are stored.
-
-    Parameters
-    ----------
-    node : bpy.types.Node
-
-    Returns
-    -------
-    mapping
-        Empty where the node carries no operation.
-    """
-    operation = node.get(names.OPERATION)
-    settings = operation.get("settings") if hasattr(operation, "items") else None
-    return settings if hasattr(settings, "items") else {}
 
 
 def change_setting(node: bpy.types.Node, name: str, value: object) -> None:
@@ -89,7 +92,7 @@ def change_setting(node: bpy.types.Node, name: str, value: object) -> None:
             show(node)
 
 
-class GEOANALOGY_ND_operation(bpy.types.Node):
+class GEOANALOGY_ND_operation(BuildingSettings, bpy.types.Node):
     """An operation."""
 
     bl_idname = names.OPERATION_NODE
@@ -132,15 +135,29 @@ class GEOANALOGY_ND_operation(bpy.types.Node):
             layout.label(text="No operation", icon="ERROR")
             return
         settings = stored_settings(self)
-        layout.label(text=str(operation.get("type", "")).capitalize(), icon="NODE")
+        kind = str(operation.get("type", ""))
+        row = layout.row()
+        row.label(text=kind.capitalize(), icon=ICONS.get(kind, "NODE"))
+        if self.get(names.STALE):
+            row.label(text="", icon="FILE_REFRESH")
         label, mesh = settings.get("label"), settings.get("mesh")
         if mesh:
             layout.label(text=f"{mesh} as {label}" if label else str(mesh), icon="OBJECT_DATA")
-        row = layout.row()
-        row.label(text=f"{int(self.get(names.COUNT, 0))} placed")
-        row.label(text=f"{float(self.get(names.SECONDS, 0.0)):.2f} s")
+        self.draw_settings(layout, kind)
         if "threshold" in settings:
             layout.prop(self, "threshold", slider=True)
+        row = layout.row()
+        row.active = False
+        row.label(text=f"{int(self.get(names.COUNT, 0))} {'changed' if kind in EDITED else 'placed'}")
+        row.label(text=f"{1000 * float(self.get(names.SECONDS, 0.0)):.1f} ms", icon="TIME")
+        problem = self.get(names.PROBLEM)
+        if problem:
+            layout.label(text=str(problem), icon="ERROR")
+
+    def draw_buttons_ext(self, context, layout):
+        layout.use_property_split = True
+        self.draw_buttons(context, layout)
+        self.draw_faces(layout, str(self[names.OPERATION].get("type", "")) if names.OPERATION in self else "")
 
 
 CLASSES = (GEOANALOGY_NT_tree, GEOANALOGY_NS_layout, GEOANALOGY_ND_operation)

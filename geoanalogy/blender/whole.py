@@ -16,6 +16,7 @@ from . import names
 from .evaluating import Surroundings, read_surroundings, write_node
 from .instances import arrange_collections, clear_results, collection_of, is_instance
 from .masses import write_masses
+from .tree_links import forget_changes
 from .tree_store import builds, ordered_nodes, placed_by, require_operations, works_everywhere
 
 
@@ -108,7 +109,7 @@ def write_whole(
     parts = [(around.plane, layout) for around, layout in zip(every, layouts, strict=True)] if builds(tree) else []
     masses = write_masses(scene, parts, library, tree.merged)
     arrange_collections(scene, rank)
-    problems = [p for layout in layouts for p in layout.problems]
+    problems = [*every[0].problems, *(p for layout in layouts for p in layout.problems)]
     instances = (e for layout in layouts for e in layout.elements if is_instance(e))
     missing = {str(e.mesh): e.node for e in instances if e.mesh not in library}
     problems += [
@@ -119,6 +120,7 @@ def write_whole(
         told = next((p for p in problems if p.startswith(f"node {node.name!r}: ")), None)
         if told is not None:
             node[names.PROBLEM] = told.partition(": ")[2]
+    forget_changes(tree)
     return Shown(count, masses, tuple(dict.fromkeys(problems)))
 
 

@@ -1,0 +1,54 @@
+"""Read an operations tree from a file."""
+
+from pathlib import Path
+
+import bpy
+from bpy.props import BoolProperty, StringProperty
+from bpy_extras.io_utils import ImportHelper
+
+from ..geoanalogy.blender.evaluating import mark_stale
+from ..geoanalogy.blender.tree_editing import chosen_outputs
+from ..geoanalogy.blender.tree_files import graft_tree, import_tree
+from ..geoanalogy.blender.tree_store import ordered_nodes, require_operations
+from .edit import Edit, needs_object_mode
+
+
+class GEOANALOGY_OT_import_tree(Edit, ImportHelper, bpy.types.Operator):
+    """Read an operations tree from a JSON file, to apply it here or to let it grow onto the tree that is there"""
+
+    bl_idname = "geoanalogy.import_tree"
+    bl_label = "Import Operations"
+
+    filename_ext = ".json"
+    filter_glob: StringProperty(default="*.json", options={"HIDDEN"})
+    grow: BoolProperty(
+        name="Grow Onto the Tree",
+        description="Its first operations build on the chosen leaf; else it becomes the tree of the scene",
+        options={"SKIP_SAVE"},
+    )
+    prefix: StringProperty(name="Prefix", description="Put before the names of its operations", options={"SKIP_SAVE"})
+
+    @classmethod
+    def poll(cls, context):
+        return needs_object_mode(cls, context)
+
+    def edit(self, context):
+        """Read it; nothing is evaluated."""
+        path = Path(bpy.path.abspath(self.filepath))
+        if not self.grow:
+            tree = import_tree(context.scene, path)
+            return f"{len(tree.nodes)} operations read from {path.name}; press Apply"
+        tree = require_operations(context.scene)
+        count = graft_tree(tree, path, chosen_outputs(tree, ordered_nodes(tree)), self.prefix)
+        mark_stale(tree, tree.nodes[0])
+        return f"{count} operations read from {path.name} and grown onto {tree.name}; press Apply"
+
+
+def register():
+    """Register the operator."""
+    bpy.utils.register_class(GEOANALOGY_OT_import_tree)
+
+
+def unregister():
+    """Unregister it."""
+    bpy.utils.unregister_class(GEOANALOGY_OT_import_tree)
