@@ -21,7 +21,7 @@ def table(s: Sheet) -> Sequence[Box]:
     width, depth = min(x1 - x0 - 1.5, 1.8), 0.8
     if width < 0.9 or y1 - y0 < depth + 1.5:
         return []
-    x, y = (x0 + x1) / 2, (y0 + y1) / 2
+    x, y = (x0 + x1) / 2, (y0 + y1) / 2 + 0.16  # away from the door
     return [(x - width / 2, y - depth / 2, x + width / 2, y + depth / 2)]
 
 
