@@ -24,6 +24,7 @@ MODULES = (
     ".import_tree",
     ".export_tree",
     ".add_node",
+    ".label_faces",
     ".draw_query",
     ".use_as_query",
     ".import_drawing",

@@ -2,7 +2,18 @@
 
 from ..geoanalogy.blender.registration import register_in_order, unregister_in_order
 
-MODULES = (".plan", ".example", ".propagation", ".placement", ".results", ".operations", ".drawings", ".diagnostics")
+MODULES = (
+    ".plan",
+    ".example",
+    ".propagation",
+    ".placement",
+    ".building",
+    ".results",
+    ".operations",
+    ".drawings",
+    ".diagnostics",
+    ".node_editor",
+)
 
 
 def register():

@@ -3,7 +3,8 @@
 import bpy
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.tree_store import drawing_nodes, ordered_nodes, tree_of
+from ..geoanalogy.blender.evaluating import parcels_of
+from ..geoanalogy.blender.tree_store import builds, drawing_nodes, ordered_nodes, tree_of
 from ..geoanalogy.blender.tree_types import ICONS
 from .base import SidebarPanel, hint
 
@@ -49,6 +50,9 @@ class GEOANALOGY_PT_operations(SidebarPanel, bpy.types.Panel):
         scene = context.scene
         tree = tree_of(scene)
         layout.template_ID(scene.geoanalogy, "tree")
+        row = layout.row(align=True)
+        row.operator("geoanalogy.import_tree", text="Import", icon="IMPORT")
+        row.operator("geoanalogy.export_tree", text="Export", icon="EXPORT")
         if tree is None:
             hint(layout, "None recorded yet")
             return
@@ -60,11 +64,22 @@ class GEOANALOGY_PT_operations(SidebarPanel, bpy.types.Panel):
         side.separator()
         side.operator("geoanalogy.mute_operation", text="", icon="HIDE_OFF")
         side.operator("geoanalogy.remove_operation", text="", icon="REMOVE")
+        if names.PROBLEM in tree:
+            hint(layout, str(tree[names.PROBLEM]), "ERROR")
         layout.prop(tree, "seed")
         row = layout.row(align=True)
         row.scale_y = 1.2
         row.operator("geoanalogy.replay", icon="FILE_REFRESH")
         row.operator("geoanalogy.clear", text="Clear", icon="TRASH")
+        row = layout.row(align=True)
+        row.operator("geoanalogy.apply", icon="PLAY").parcels = "ALL"
+        row.operator("geoanalogy.apply", text="To Selected").parcels = "SELECTED"
+        parcels = parcels_of(tree)
+        if parcels:
+            hint(layout, f"Applied to {len(parcels)} parcels only")
+        if builds(tree):
+            layout.prop(tree, "merged")
+        layout.operator("geoanalogy.make_real", icon="OBJECT_DATA")
 
 
 def register():

@@ -3,10 +3,14 @@
 import json
 from pathlib import Path
 
+import bmesh
 import bpy
+import numpy as np
 import pytest
-from flats import bridge, engine, face, operations_tree
-from houses import HEIGHT, SIZES, box_of, corners_of, houses, solids, volume_of, windows
+from facades import frame, outline, ring
+from flats import activate, box, bridge, engine, face, operations_tree
+from houses import HEIGHT, SIZES, box_of, corners_of, extrude, houses, solids, volume_of, windows
+from mathutils import Vector
 
 EXEC = "EXEC_DEFAULT"
 
@@ -74,3 +78,101 @@ def test_a_tree_applied_in_blender_gives_what_the_engine_gives():
     assert len(found) > 10
     assert [f[:2] for f in found] == [e[:2] for e in expected]
     assert [f[2] for f in found] == pytest.approx([e[2] for e in expected], abs=0.02)
+
+
+def cube(name="block", turn=(0.3, 0.2, 0.7)):
+    """A cube of side 4, turned any way."""
+    item = box(name, (4.0, 4.0, 4.0))
+    item.location, item.rotation_euler = (30.0, 5.0, 2.0), turn
+    bpy.context.view_layer.update()
+    return activate(item)
+
+
+def choose_faces(item, *indices):
+    for face_ in item.data.polygons:
+        face_.select = face_.index in indices
+
+
+@pytest.mark.parametrize("edit_mode", [False, True])
+def test_faces_of_any_direction_become_surfaces(edit_mode):
+    item = cube()
+    choose_faces(item, 1, 3)
+    if edit_mode:
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="DESELECT")
+        edited = bmesh.from_edit_mesh(item.data)
+        edited.faces.ensure_lookup_table()
+        edited.faces[1].select_set(True)
+        edited.faces[3].select_set(True)
+    assert bpy.ops.geoanalogy.label_faces(EXEC, True, label="facade") == {"FINISHED"}
+    if edit_mode:
+        bpy.ops.object.mode_set(mode="OBJECT")
+    grounds = bridge("ground").read_grounds(bpy.context.scene, bpy.context.evaluated_depsgraph_get())
+    assert [len(ground.scene.polygons) for ground in grounds] == [1, 1]
+    normals = [np.array(item.matrix_world)[:3, :3] @ np.array(item.data.polygons[i].normal) for i in (1, 3)]
+    for ground in grounds:
+        (polygon,) = ground.scene.polygons
+        assert (polygon.label, polygon.area) == ("facade", pytest.approx(16.0, rel=1e-5))
+        assert max(float(n @ ground.plane.normal) for n in normals) == pytest.approx(1.0, abs=1e-5)
+    choose_faces(item, 1)
+    bpy.ops.geoanalogy.label_faces(EXEC, True, label="")
+    grounds = bridge("ground").read_grounds(bpy.context.scene, bpy.context.evaluated_depsgraph_get())
+    assert len(grounds) == 1
+
+
+def test_operations_work_on_chosen_faces():
+    item = cube()
+    choose_faces(item, 1, 3)
+    bpy.ops.geoanalogy.label_faces(EXEC, True, label="facade")
+    node = extrude(label="facade", height=0.5)
+    assert node["count"] == 2
+    made = solids("facade")
+    assert [volume_of(one) for one in made] == pytest.approx([8.0, 8.0], rel=1e-4)
+    # They stand out of the cube, none into it.
+    points = np.vstack([corners_of(one) for one in made])
+    own = (points - np.array(item.location)) @ np.array(item.matrix_world)[:3, :3]
+    assert (np.abs(own[:, :2]).max(axis=1) > 2.0 - 1e-4).any() or own[:, 2].max() > 4.0 - 1e-4
+    assert not ((np.abs(own[:, :2]) < 1.9).all(axis=1) & (own[:, 2] > 0.1) & (own[:, 2] < 3.9)).any()
+
+
+@pytest.mark.parametrize("kind", ["mesh", "curve", "stroke"])
+@pytest.mark.parametrize("direction", ["askew", "sloped"])
+def test_outlines_of_any_kind_and_direction_are_extruded_off_their_plane(kind, direction):
+    where = frame(direction, at=(1.0, 2.0, 3.0))
+    outline("sheet", ring(0, 0, 3.0, 2.0), "sheet", where, kind)
+    extrude(label="sheet", height=0.5, side="edge", top="front")
+    (made,) = solids("sheet")
+    points = np.array([where.inverted() @ Vector(p) for p in corners_of(made)])
+    assert points.min(axis=0) == pytest.approx((0.0, 0.0, 0.0), abs=1e-4)
+    assert points.max(axis=0) == pytest.approx((3.0, 2.0, 0.5), abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("prepare", "message"),
+    [
+        (lambda: face("plain", [(0, 0), (1, 0), (1, 1)]), "no mesh is active"),
+        (lambda: (choose_faces(cube()), None), "no face of 'block' is selected"),
+        (lambda: (houses(), activate(solids()[0])), "is a result of 'house' itself, whose faces are surfaces already"),
+    ],
+)
+def test_what_cannot_become_a_surface_is_told(prepare, message):
+    prepare()
+    with pytest.raises(RuntimeError, match=message):
+        bpy.ops.geoanalogy.label_faces(EXEC, True, label="facade")
+
+
+def test_an_object_on_a_wall_is_learned_from_and_placed_on_walls_like_it():
+    corners, _ = houses()
+    (x0, y0, _), _ = box_of(0, corners)
+    lamp = activate(box("Lamp", (0.2, 0.2, 0.4), "lamp", at=(x0 + 1.0, y0 - 0.1, 2.0)))
+    assert bpy.ops.geoanalogy.propagate(EXEC, True, threshold=0.3) == {"FINISHED"}
+    made = [i for i in bpy.context.scene.objects if i.get("ga_node") == "lamp"]
+    # A wall is as high above its middle as below it, but every wall has one as high as the example.
+    assert sum(abs(item.matrix_world.translation.z - 2.0) < 0.01 for item in made) >= 4
+    boxes = {k: box_of(k, corners) for k in (0, 1)}
+    for item in made:
+        at = item.matrix_world.translation
+        assert item.data == lamp.data
+        # None stands inside a house.
+        for low, high in boxes.values():
+            assert not all(a + 0.05 < v < b - 0.05 for a, v, b in zip(low[:2], at[:2], high[:2], strict=True))

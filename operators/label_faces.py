@@ -1,0 +1,42 @@
+"""Make surfaces of faces."""
+
+import bpy
+from bpy.props import StringProperty
+
+from ..geoanalogy.blender.face_labels import label_faces
+from .edit import Edit
+
+
+class GEOANALOGY_OT_label_faces(Edit, bpy.types.Operator):
+    """Make surfaces of the selected faces of a mesh, of any direction: operations then work on them as on walls"""
+
+    bl_idname = "geoanalogy.label_faces"
+    bl_label = "Label Faces"
+
+    label: StringProperty(name="Label", description="Such as facade or roof; empty: they are no surfaces any more")
+
+    @classmethod
+    def poll(cls, context):
+        if context.mode not in ("OBJECT", "EDIT_MESH"):
+            cls.poll_message_set("Go to Object Mode or Edit Mode first")
+            return False
+        return True
+
+    def invoke(self, context, event):
+        return context.window_manager.invoke_props_dialog(self)
+
+    def edit(self, context):
+        """Label them."""
+        label = self.label.strip()
+        count = label_faces(context.active_object, label)
+        return f"{count} faces labelled {label!r}" if label else f"{count} faces without a label"
+
+
+def register():
+    """Register the operator."""
+    bpy.utils.register_class(GEOANALOGY_OT_label_faces)
+
+
+def unregister():
+    """Unregister it."""
+    bpy.utils.unregister_class(GEOANALOGY_OT_label_faces)

@@ -1,0 +1,72 @@
+"""The node editor of operations trees: its Add menu, its header and its sidebar."""
+
+import bpy
+
+from ..geoanalogy.blender import names
+from ..geoanalogy.blender.new_nodes import KINDS
+from ..geoanalogy.blender.tree_types import ICONS
+
+
+def _shows_tree(context: bpy.types.Context) -> bool:
+    space = context.space_data
+    return space is not None and space.type == "NODE_EDITOR" and space.tree_type == names.TREE
+
+
+def draw_add_menu(self, context):
+    """Draw the operations that need no examples."""
+    if not _shows_tree(context):
+        return
+    self.layout.operator_context = "INVOKE_DEFAULT"
+    for kind in KINDS:
+        self.layout.operator("geoanalogy.add_node", text=kind.capitalize(), icon=ICONS[kind]).kind = kind
+
+
+def draw_header(self, context):
+    """Draw what is done with the whole tree, and what is wrong with it."""
+    tree = context.space_data.node_tree if _shows_tree(context) else None
+    if tree is None:
+        return
+    row = self.layout.row(align=True)
+    row.operator("geoanalogy.apply", icon="PLAY")
+    row.operator("geoanalogy.replay", text="", icon="FILE_REFRESH")
+    if names.PROBLEM in tree:
+        self.layout.label(text=str(tree[names.PROBLEM]), icon="ERROR")
+
+
+class GEOANALOGY_PT_tree(bpy.types.Panel):
+    """The tree that is shown, and how long its operations took."""
+
+    bl_idname = "GEOANALOGY_PT_tree"
+    bl_label = "Operations Tree"
+    bl_space_type = "NODE_EDITOR"
+    bl_region_type = "UI"
+    bl_category = "GeoAnalogy"
+
+    @classmethod
+    def poll(cls, context):
+        return _shows_tree(context) and context.space_data.node_tree is not None
+
+    def draw(self, context):
+        layout = self.layout
+        tree = context.space_data.node_tree
+        layout.prop(tree, "seed")
+        layout.prop(tree, "merged")
+        seconds = sum(float(node.get(names.SECONDS, 0.0)) for node in tree.nodes)
+        layout.label(text=f"{len(tree.nodes)} operations, {seconds:.2f} s", icon="TIME")
+        row = layout.row(align=True)
+        row.operator("geoanalogy.import_tree", text="Import", icon="IMPORT")
+        row.operator("geoanalogy.export_tree", text="Export", icon="EXPORT")
+
+
+def register():
+    """Register the panel, and add to Blender's own menu and header."""
+    bpy.utils.register_class(GEOANALOGY_PT_tree)
+    bpy.types.NODE_MT_add.append(draw_add_menu)
+    bpy.types.NODE_HT_header.append(draw_header)
+
+
+def unregister():
+    """Take all of it back."""
+    bpy.types.NODE_HT_header.remove(draw_header)
+    bpy.types.NODE_MT_add.remove(draw_add_menu)
+    bpy.utils.unregister_class(GEOANALOGY_PT_tree)
