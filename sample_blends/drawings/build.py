@@ -1,0 +1,167 @@
+"""Draw a picture in Blender and record its edits: ``python -m sample_blends.drawings.build fish --output fish.blend``.
+
+The .blend holds the lines as Bézier curves, the query, its image and the recorded operation of every edit, without the
+results: replaying makes those.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+import geoanalogy.blender as bridge
+from geoanalogy.command_line import leave
+from geoanalogy.progress import run
+
+from .. import stage
+from .picture import Edit, Picture, painted
+from .truth import options_of, picture_of
+
+#: Pixels of the longer side of a background, which is soft, and of a rendered picture.
+BACKGROUND, RENDERED = 320, 1200
+
+#: Depth of the paper below the lines, in sizes of the sheet: below all images.
+PAPER = 0.05
+
+
+def line_object(picture: Picture, holder: bpy.types.Collection) -> bpy.types.Object:
+    """All lines of a picture as one curve of Bézier splines with a round pen."""
+    curve = bpy.data.curves.new("Lines", "CURVE")
+    curve.dimensions = "3D"
+    curve.bevel_depth = picture.pen
+    curve.bevel_resolution = 1
+    for stroke in picture.strokes:
+        spline = curve.splines.new("BEZIER")
+        spline.bezier_points.add(len(stroke.points) - 1)
+        left, right = stroke.handles()
+        for key, points in (("co", stroke.points), ("handle_left", left), ("handle_right", right)):
+            flat = np.column_stack([points, np.zeros(len(points))]).ravel()
+            spline.bezier_points.foreach_set(key, flat.astype(np.float32))
+        # The pen is pressed less at the ends of a line.
+        ends = np.ones(len(stroke.points))
+        if not stroke.closed:
+            ends = np.clip(np.minimum(np.arange(len(ends)), np.arange(len(ends))[::-1]) / 4.0 + 0.45, 0.0, 1.0)
+        spline.bezier_points.foreach_set("radius", (stroke.width * ends).astype(np.float32))
+        spline.use_cyclic_u = stroke.closed
+        spline.resolution_u = 12
+    curve.materials.append(flat_material("Ink", (*picture.ink, 1.0)))
+    item = bpy.data.objects.new("Lines", curve)
+    holder.objects.link(item)
+    return item
+
+
+def flat_material(name: str, colour: tuple[float, float, float, float]) -> bpy.types.Material:
+    """A material that shines in one colour, as flat as ink; sRGB, clear where alpha says."""
+    made = bpy.data.materials.new(name)
+    if made.node_tree is None:  # Blender before 5.0
+        made.use_nodes = True
+    tree = made.node_tree
+    tree.nodes.clear()
+    light, clear, mix, output = (
+        tree.nodes.new(f"ShaderNode{kind}") for kind in ("Emission", "BsdfTransparent", "MixShader", "OutputMaterial")
+    )
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in colour[:3]]
+    light.inputs["Color"].default_value = (*linear, 1.0)
+    mix.inputs[0].default_value = colour[3]
+    tree.links.new(clear.outputs[0], mix.inputs[1])
+    tree.links.new(light.outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], output.inputs["Surface"])
+    made.diffuse_color = colour
+    return made
+
+
+def image_of(name: str, rgba: np.ndarray) -> bpy.types.Image:
+    """An image packed into the file as a PNG."""
+    height, width = rgba.shape[:2]
+    image = bpy.data.images.new(f"{name}.png", width, height, alpha=True)
+    image.pixels.foreach_set(np.ascontiguousarray(rgba, dtype=np.float32).ravel())
+    image.file_format = "PNG"
+    image.pack()
+    return image
+
+
+def add_paper(picture: Picture, scene: bpy.types.Scene) -> None:
+    """The background, below everything."""
+    from geoanalogy.blender.region_patches import image_material
+
+    low, high = np.array(picture.low), np.array(picture.high)
+    image = image_of("paper", painted(picture.background, low, high, BACKGROUND))
+    mesh = bpy.data.meshes.new("Paper")
+    (x0, y0), (x1, y1) = low, high
+    mesh.from_pydata([(x0, y0, 0), (x1, y0, 0), (x1, y1, 0), (x0, y1, 0)], [], [(0, 1, 2, 3)])
+    layer = mesh.uv_layers.new(name="UVMap")
+    layer.uv.foreach_set("vector", np.array([0, 0, 1, 0, 1, 1, 0, 1], np.float32))
+    mesh.materials.append(image_material(image))
+    item = bpy.data.objects.new("Paper", mesh)
+    item.location.z = -PAPER * float(np.linalg.norm(high - low))
+    stage.collection(scene, "Stage").objects.link(item)
+
+
+def record(edit: Edit) -> bpy.types.Node:
+    """Make an edit as a user does: draw the query, find what is like it, lay the image."""
+    from geoanalogy.blender import region_queries, region_recording
+
+    context = bpy.context
+    points = np.column_stack([edit.query, np.zeros(len(edit.query))])
+    query = region_queries.add_query(context, [points], edit.closed, name=edit.name)
+    steps = region_recording.region_steps(context, query, options_of(edit), threshold=edit.threshold)
+    node = run(steps)
+    region = np.array(region_recording.engine_node(node).operation.region.bounds).reshape(2, 2)
+    image = image_of(edit.name, painted(edit.paint, region[0], region[1], edit.pixels))
+    run(region_recording.image_steps(context, node, image))
+    return node
+
+
+def build(picture: Picture) -> bpy.types.Scene:
+    """An empty file filled with a picture and its edits."""
+    scene = stage.clear()
+    bridge.register()
+    holder = stage.collection(scene, "Drawing")
+    line_object(picture, holder)
+    scene.geoanalogy.drawing = holder
+    add_paper(picture, scene)
+    for edit in picture.edits:
+        node = record(edit)
+        print(f"{picture.name}, {edit.name}: {node['count']} regions painted", flush=True)
+    extent = np.array(picture.high) - picture.low
+    width, height = np.round(RENDERED * extent / extent.max()).astype(int)
+    stage.settings(scene, int(width), int(height), 12)
+    scene.cycles.transparent_max_bounces = 64
+    scene.cycles.use_denoising = False
+    scene.view_settings.view_transform = "Standard"
+    scene.view_settings.look = "None"
+    scene.view_settings.exposure = 0.0
+    corners = np.array([(*picture.low, 0.0), (*picture.high, 0.0)])
+    stage.camera(scene, corners, elevation=90.0, lens=None, margin=0.0)
+    scene.world = bpy.data.worlds.new("Plain")
+    return scene
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("scene")
+    parser.add_argument("--output", type=Path, required=True)
+    parser.add_argument("--with-results", action="store_true", help="keep what has been found")
+    arguments = parser.parse_args()
+    scene = build(picture_of(arguments.scene))
+    if not arguments.with_results:
+        from geoanalogy.blender import names
+        from geoanalogy.blender.instances import clear_results
+        from geoanalogy.blender.tree_store import drawing_nodes, tree_of
+
+        clear_results(scene)
+        for node in drawing_nodes(tree_of(scene)):
+            node.pop(names.MATCHES, None)
+    bpy.ops.outliner.orphans_purge(do_recursive=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(arguments.output.resolve()), compress=True)
+    print(f"saved {arguments.output}")
+    leave(0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
