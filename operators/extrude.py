@@ -19,6 +19,12 @@ FACES = {
 }
 
 
+def _face(part, name):
+    """The label of a part of the solid: whatever the last extrusion made of it, the next one begins with the usual."""
+    usual = getattr(FaceLabels(), part)
+    return StringProperty(name=name, description=FACES[part], default=usual, options={"SKIP_SAVE"})
+
+
 class GEOANALOGY_OT_extrude(LongEdit, bpy.types.Operator):
     """Extrude everything of a label off its surface; the faces become surfaces that operations can work on"""
 
@@ -30,20 +36,31 @@ class GEOANALOGY_OT_extrude(LongEdit, bpy.types.Operator):
     )
     height: FloatProperty(name="Height", default=3.0, subtype="DISTANCE")
     factor: FloatVectorProperty(
-        name="Random Factor", description="Least and greatest multiplier of the height", size=2, default=(1.0, 1.0)
+        name="Random Factor",
+        description="Least and greatest multiplier of the height",
+        size=2,
+        default=(1.0, 1.0),
+        options={"SKIP_SAVE"},
     )
-    inwards: BoolProperty(name="Inwards", description="Below the surface, for what will be subtracted from it")
-    roof: EnumProperty(name="Roof", items=ROOFS)
+    inwards: BoolProperty(
+        name="Inwards",
+        description="Below the surface, for what will be subtracted from it",
+        options={"SKIP_SAVE"},
+    )
+    roof: EnumProperty(name="Roof", items=ROOFS, options={"SKIP_SAVE"})
     pitch: FloatProperty(name="Pitch", default=Roof().pitch, min=0.02, max=1.5, subtype="ANGLE")
-    overhang: FloatProperty(name="Overhang", min=0.0, subtype="DISTANCE")
+    overhang: FloatProperty(name="Overhang", min=0.0, subtype="DISTANCE", options={"SKIP_SAVE"})
     walls: FloatProperty(
-        name="Walls", description="Thickness of the walls of a room that is open above; 0: a full body", min=0.0
+        name="Walls",
+        description="Thickness of the walls of a room that is open above; 0: a full body",
+        min=0.0,
+        options={"SKIP_SAVE"},
     )
-    side: StringProperty(name="Sides", description=FACES["side"], default=FaceLabels().side)
-    top: StringProperty(name="Top", description=FACES["top"], default=FaceLabels().top)
-    bottom: StringProperty(name="Bottom", description=FACES["bottom"], default=FaceLabels().bottom)
-    roof_label: StringProperty(name="Roof Faces", description=FACES["roof"], default=FaceLabels().roof)
-    gable: StringProperty(name="Gables", description=FACES["gable"], default=FaceLabels().gable)
+    side: _face("side", "Sides")
+    top: _face("top", "Top")
+    bottom: _face("bottom", "Bottom")
+    roof_label: _face("roof", "Roof Faces")
+    gable: _face("gable", "Gables")
 
     @classmethod
     def poll(cls, context):

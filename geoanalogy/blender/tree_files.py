@@ -12,13 +12,10 @@ from ..operations.tree import OperationsTree
 from . import names
 from .planes import Plane
 from .tree_links import unwatched
-from .tree_store import NODE_GAP, Placed, add_node, engine_tree, ordered_nodes, require_operations
+from .tree_store import BRANCH_GAP, NODE_GAP, Placed, add_node, engine_tree, ordered_nodes, require_operations
 
 #: Longest name of a node in bytes: Blender would cut the rest off.
 LONGEST_NAME = 63
-
-#: Distance between branches in the node editor.
-BRANCH_GAP = 300.0
 
 
 def import_tree(scene: bpy.types.Scene, path: Path) -> bpy.types.NodeTree:

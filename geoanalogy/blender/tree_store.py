@@ -32,6 +32,9 @@ Array = NDArray[np.float64]
 #: Distance between the nodes of a chain in the node editor.
 NODE_GAP = 260.0
 
+#: Distance between branches there.
+BRANCH_GAP = 300.0
+
 #: The types of operations that make solids and surfaces, or choose among them.
 BUILDING = {Extrusion.type, Boolean.type, Selection.type}
 
@@ -392,6 +395,9 @@ def add_node(tree: bpy.types.NodeTree, operation: Node, placed: Sequence[Placed]
         if sources
         else (0.0, min(rows) - NODE_GAP if rows else 0.0)
     )
+    column = [o.location[1] for o in tree.nodes if o != node and abs(o.location[0] - node.location[0]) < NODE_GAP / 2]
+    while any(abs(y - node.location[1]) < BRANCH_GAP / 2 for y in column):
+        node.location[1] -= BRANCH_GAP
     tree.nodes.active = node
     return node
 
