@@ -4,7 +4,10 @@ import bpy
 
 from ..geoanalogy.blender.evaluating import mark_stale
 from ..geoanalogy.blender.instances import clear_results
+from ..geoanalogy.blender.masses import clear_masses
 from ..geoanalogy.blender.tree_editing import remove_node
+from ..geoanalogy.blender.tree_store import builds, recorded_nodes
+from ..geoanalogy.blender.whole import show_whole
 from .edit import Edit, active_operation, needs_operations
 
 
@@ -22,9 +25,15 @@ class GEOANALOGY_OT_remove_operation(Edit, bpy.types.Operator):
         """Remove it; what built on it builds on what it was built on."""
         node = active_operation(context)
         name = node.name
-        mark_stale(node.id_data, node)
+        tree = node.id_data
+        whole = builds(tree)
+        mark_stale(tree, node)
         clear_results(context.scene, [name])
-        remove_node(node.id_data, node)
+        remove_node(tree, node)
+        if whole:
+            clear_masses(context.scene)
+        if whole and recorded_nodes(tree):
+            return f"{name} removed; {show_whole(context).text}"
         return f"{name} removed; replay to bring what followed up to date"
 
 

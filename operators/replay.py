@@ -19,7 +19,7 @@ class GEOANALOGY_OT_replay(LongEdit, bpy.types.Operator):
     def steps(self, context):
         """Evaluate what has changed, and show everything anew."""
         report = yield from replay_steps(context)
-        return f"{report.operations} operations, {report.objects} results"
+        return report.text
 
 
 def register():

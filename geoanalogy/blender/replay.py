@@ -14,7 +14,7 @@ from .evaluating import read_surroundings
 from .lessons import relearned_steps
 from .region_recording import replayed_steps, write_replayed
 from .tree_store import drawing_nodes, operation_nodes, ordered_nodes, require_operations, tree_of, write_operation
-from .whole import whole_steps, write_whole
+from .whole import told, whole_steps, write_whole
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,12 @@ class Report:
     objects: int
     masses: int = 0
     problems: tuple[str, ...] = ()
+
+    @property
+    def text(self) -> str:
+        """What to tell the user."""
+        solids = f", {self.masses} solids and outlines" if self.masses else ""
+        return told(f"{self.operations} operations, {self.objects} results{solids}", self.problems)
 
 
 def replay_steps(

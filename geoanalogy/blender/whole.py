@@ -41,12 +41,26 @@ class Shown:
     @property
     def text(self) -> str:
         """What to tell the user."""
-        parts = [f"{self.objects} objects"]
-        if self.masses:
-            parts.append(f"{self.masses} solids and outlines")
-        return "; ".join([", ".join(parts), *self.problems[:1]]) + (
-            f" (and {len(self.problems) - 1} more problems)" if len(self.problems) > 1 else ""
-        )
+        solids = f", {self.masses} solids and outlines" if self.masses else ""
+        return told(f"{self.objects} objects{solids}", self.problems)
+
+
+def told(done: str, problems: Sequence[str]) -> str:
+    """What was done, and the first of the problems.
+
+    Parameters
+    ----------
+    done : str
+    problems : sequence of str
+
+    Returns
+    -------
+    str
+    """
+    if not problems:
+        return done
+    more = f" (and {len(problems) - 1} more problems)" if len(problems) > 1 else ""
+    return f"{done}; {problems[0]}{more}"
 
 
 def whole_steps(

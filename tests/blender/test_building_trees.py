@@ -4,9 +4,11 @@ import json
 from pathlib import Path
 
 import bpy
+import numpy as np
 import pytest
-from flats import activate, bridge, everything, face, operations_tree, reload
-from houses import HEIGHT, draw, extrude, houses, parcels, place, solids, volume_of, windows
+from flats import activate, box, bridge, everything, face, operations_tree, reload
+from houses import HEIGHT, box_of, corners_of, draw, extrude, houses, parcels, place, solids, volume_of, windows
+from mathutils import Matrix
 
 EXEC = "EXEC_DEFAULT"
 HOUSES = Path(__file__).resolve().parents[2] / "sample_blends" / "houses"
@@ -367,3 +369,109 @@ def test_a_window_that_is_rejected_is_no_longer_cut():
     assert tree.nodes["window"]["count"] == 15
     missing = 1.2 * 1.2 * 0.2
     assert sum(whole.values()) - sum(volumes().values()) == pytest.approx(15 * missing, rel=1e-3)
+
+
+def boxed_windows(corners):
+    """Window boxes, a library object of their own, on every wall; those on two walls were drawn."""
+    window = box("Window", (1.2, 0.1, 1.2), "window", at=(0.0, -20.0, 0.0))
+    bpy.context.scene.geoanalogy.element = window
+    boxes = []
+    for i in (0, 1):
+        (x0, y0, _), _ = box_of(i, corners)
+        boxes.append(((x0 + 1.5, y0, 1.0), (x0 + 2.7, y0, 2.2)))
+    draw("window", *boxes)
+    return place(most=1), window
+
+
+def boxes():
+    bpy.context.view_layer.update()
+    return {i["ga_key"]: i for i in bpy.context.scene.objects if i.get("ga_node") == "window"}
+
+
+def where(items):
+    return {key: tuple(round(v, 3) for v in item.matrix_world.translation) for key, item in items.items()}
+
+
+def test_library_objects_stand_on_walls_and_share_their_mesh():
+    corners, _ = houses()
+    node, window = boxed_windows(corners)
+    assert node["count"] == 16
+    found = boxes()
+    assert {item.data for item in found.values()} == {window.data}
+    for key, item in found.items():
+        owner = next(s for s in solids("house") if key.startswith(f"house/{s['ga_key']}:"))
+        points, walls = corners_of(item), corners_of(owner)
+        assert (points[:, 2].min(), points[:, 2].max()) == pytest.approx((1.0, 2.2), abs=1e-3)
+        # Its origin is on the wall, and no corner further off than half its depth.
+        sides = np.concatenate([walls[:, :2].min(axis=0), walls[:, :2].max(axis=0)])
+        at = np.array(item.matrix_world.translation)[:2]
+        assert np.abs(np.tile(at, 2) - sides).min() < 1e-3
+        off = np.abs(np.tile(points[:, :2], 2) - sides).min(axis=1)
+        assert off.max() == pytest.approx(0.05, abs=1e-3)
+
+
+def test_a_window_that_is_moved_or_rejected_stays_so_when_its_house_is_moved_with_its_parcel(tmp_path):
+    corners, _ = houses()
+    boxed_windows(corners)
+    first, second, *_ = sorted(key for key in boxes() if key.startswith("house/parcel 3"))
+    activate(boxes()[first])
+    assert bpy.ops.geoanalogy.reject(EXEC, True) == {"FINISHED"}
+    assert first not in boxes() and len(boxes()) == 15
+    moved = boxes()[second]
+    moved.matrix_world = Matrix.Translation((0.0, 0.0, 0.3)) @ moved.matrix_world
+    activate(moved)
+    assert bpy.ops.geoanalogy.accept(EXEC, True) == {"FINISHED"}
+    stand = where(boxes())
+    assert stand[second][2] == pytest.approx(1.9 if stand[second][2] > 1.5 else 1.3, abs=1e-2)
+    reload(tmp_path / "windows.blend")
+    assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
+    assert where(boxes()) == stand
+    bpy.data.objects["parcel 3"].location.y += 5.0
+    assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
+    after = where(boxes())
+    own = [key for key in after if key.startswith("house/parcel 3")]
+    assert len(after) == 15 and first not in after and len(own) == 3
+    for key in own:
+        assert after[key] == pytest.approx((stand[key][0], stand[key][1] + 5.0, stand[key][2]), abs=2e-3)
+    assert all(after[key] == stand[key] for key in after if key not in own)
+
+
+def test_an_example_parcel_that_is_moved_leaves_what_was_learned():
+    corners, _ = houses()
+    windows(corners)
+    cut = volumes()
+    bpy.data.objects["parcel 1"].location.y += 40.0
+    for item in bpy.data.objects:
+        if item.name.startswith("house rectangle") and item.location.x > 14.0:
+            item.location.y += 40.0
+    assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
+    assert sorted(volumes().values()) == pytest.approx(sorted(cut.values()), rel=1e-4)
+
+
+def test_removing_an_operation_shows_what_is_left():
+    corners, _ = houses()
+    whole = volumes()
+    windows(corners)
+    tree = operations_tree()
+    for name in ("subtract window", "extrude window", "window"):
+        tree.nodes.active = tree.nodes[name]
+        assert bpy.ops.geoanalogy.remove_operation(EXEC, True) == {"FINISHED"}
+    assert volumes() == whole and solids("window") == []
+    for name in ("extrude house", "house"):
+        tree.nodes.active = tree.nodes[name]
+        assert bpy.ops.geoanalogy.remove_operation(EXEC, True) == {"FINISHED"}
+    assert solids() == []
+
+
+def test_a_solid_is_extruded_in_one_step_of_undo():
+    corners = parcels()
+    draw("house", *(box_of(i, corners) for i in (0, 1)))
+    place(most=1, any_size=True)
+    bpy.ops.ed.undo_push(message="placed")
+    before = everything()
+    extrude(label="house", height=HEIGHT)
+    after = everything()
+    bpy.ops.ed.undo()
+    assert everything() == before
+    bpy.ops.ed.redo()
+    assert everything() == after
