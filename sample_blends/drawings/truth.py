@@ -100,7 +100,9 @@ def measure(picture: Picture, edit: Edit) -> Row:
     if edit.threshold is not None:
         matches = matches.above(edit.threshold)
     at = probes(edit)
-    off = np.array([[np.median(errors(m.map, t, at)) for t in edit.truth] for m in matches]).reshape(len(matches), -1)
+    off = np.array([[np.median(errors(m.map, t, at)) for t in edit.truth] for m in matches]).reshape(
+        len(matches), len(edit.truth)
+    )
     best = off.min(axis=0, initial=np.inf)
     hits = best < FOUND
     false = int((off.min(axis=1, initial=np.inf) >= FOUND).sum())
