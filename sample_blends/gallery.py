@@ -13,6 +13,7 @@ from pathlib import Path
 
 import geoanalogy as ga
 
+from .drawings import SCENES as DRAWINGS
 from .houses.plots import TYPES
 
 HERE = Path(__file__).resolve().parent
@@ -36,6 +37,19 @@ def replay(scene: str, folder: Path) -> None:
     subprocess.run([*command, *outputs], check=True)
 
 
+def draw_sheet(scene: str, folder: Path, anew: bool) -> None:
+    """Replay a drawing, and draw its query beside what came of it; where wanted, record it anew before."""
+    blend = HERE / "drawings" / f"{scene}.blend"
+    if anew:
+        build = [sys.executable, "-m", "sample_blends.drawings.build", scene, "--output", str(blend)]
+        subprocess.run(build, cwd=ROOT, check=True)
+    replayed = folder / f"{scene}.blend"
+    batch = [sys.executable, str(ROOT / "batch.py"), "replay", str(blend), "--output", str(replayed)]
+    subprocess.run(batch, check=True)
+    sheet = [sys.executable, "-m", "sample_blends.drawings.sheet", str(replayed), str(folder / f"{scene}.png")]
+    subprocess.run(sheet, cwd=ROOT, check=True)
+
+
 def build_houses(folder: Path) -> None:
     """Apply the trees of all types of houses, grown together, to the other plots; write the scene and its picture."""
     grown = ga.OperationsTree()
@@ -51,7 +65,7 @@ def build_houses(folder: Path) -> None:
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("scenes", nargs="*", default=(*SCENES, HOUSES), help="which ones (default: all)")
+    parser.add_argument("scenes", nargs="*", default=(*SCENES, HOUSES, *DRAWINGS), help="which ones (default: all)")
     parser.add_argument(
         "--output", type=Path, default=ROOT / "output", help="folder for the replayed scenes and pictures"
     )
@@ -63,6 +77,9 @@ def main() -> None:
             if arguments.rebuild:
                 subprocess.run([sys.executable, "-m", "sample_blends.houses"], cwd=ROOT, check=True)
             build_houses(arguments.output)
+            continue
+        if scene in DRAWINGS:
+            draw_sheet(scene, arguments.output.resolve(), arguments.rebuild)
             continue
         if arguments.rebuild:
             rebuild(scene)

@@ -129,7 +129,7 @@ def build(picture: Picture) -> bpy.types.Scene:
         print(f"{picture.name}, {edit.name}: {node['count']} regions painted", flush=True)
     extent = np.array(picture.high) - picture.low
     width, height = np.round(RENDERED * extent / extent.max()).astype(int)
-    stage.settings(scene, int(width), int(height), 12)
+    stage.settings(scene, int(width), int(height), 40)
     scene.cycles.transparent_max_bounces = 64
     scene.cycles.use_denoising = False
     scene.view_settings.view_transform = "Standard"

@@ -15,6 +15,7 @@ import shapely
 
 import geoanalogy.blender as bridge
 from geoanalogy.command_line import leave
+from geoanalogy.progress import run
 
 from .. import stage
 
@@ -100,9 +101,14 @@ def main() -> None:
     parser.add_argument("output", type=Path)
     parser.add_argument("--width", type=int, default=900, help="pixels of one picture")
     arguments = parser.parse_args()
+    from geoanalogy.blender import names
+    from geoanalogy.blender.replay import replay_steps
+
     bridge.register()
     bpy.ops.wm.open_mainfile(filepath=str(arguments.blend.resolve()))
     scene = bpy.context.scene
+    if not any(names.KEY in item for item in scene.objects):
+        run(replay_steps(bpy.context))
     scene.render.resolution_percentage = round(100 * arguments.width / scene.render.resolution_x)
     with tempfile.TemporaryDirectory() as folder:
         right, left = Path(folder, "right.png"), Path(folder, "left.png")
