@@ -44,11 +44,22 @@ def _show_sifted(node: bpy.types.Node) -> None:
         node[names.PROBLEM] = str(error)
 
 
+def _show_merged(tree: bpy.types.NodeTree) -> None:
+    if tree_of(bpy.context.scene) != tree or not builds(tree):
+        return
+    try:
+        show_whole(bpy.context)
+    except InputError as error:
+        tree[names.PROBLEM] = str(error)
+
+
 def register():
     """Show results again when a setting that sifts them changes."""
     tree_types.on_sifted.append(_show_sifted)
+    tree_types.on_merged.append(_show_merged)
 
 
 def unregister():
     """No longer do so."""
+    tree_types.on_merged.remove(_show_merged)
     tree_types.on_sifted.remove(_show_sifted)

@@ -1,6 +1,7 @@
 """Operations trees as JSON files, and as node groups: read from one into the other, and grown onto what is there."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import bpy
@@ -12,7 +13,16 @@ from ..operations.tree import OperationsTree
 from . import names
 from .planes import Plane
 from .tree_links import unwatched
-from .tree_store import BRANCH_GAP, NODE_GAP, Placed, add_node, engine_tree, ordered_nodes, require_operations
+from .tree_store import (
+    BRANCH_GAP,
+    NODE_GAP,
+    Placed,
+    add_node,
+    engine_tree,
+    ordered_nodes,
+    placed_by,
+    require_operations,
+)
 
 #: Longest name of a node in bytes: Blender would cut the rest off.
 LONGEST_NAME = 63
@@ -97,9 +107,18 @@ def export_tree(scene: bpy.types.Scene, path: Path) -> int:
     InputError
         Where the scene has no operations, they are damaged, or the file cannot be written.
     """
-    tree = engine_tree(ordered_nodes(require_operations(scene)))
-    tree.save(path)
-    return len(tree.nodes)
+    nodes = ordered_nodes(require_operations(scene))
+    outlines = {one.mesh for node in nodes for one in placed_by(node) if one.item and names.DRAWN in one.item}
+    tree = engine_tree(nodes)
+    # A drawn rectangle is an outline; elsewhere there is no object of its name.
+    plain = [
+        replace(node, operation=replace(node.operation, mesh=""))
+        if getattr(node.operation, "mesh", "") in outlines
+        else node
+        for node in tree.nodes
+    ]
+    OperationsTree(plain).save(path)
+    return len(plain)
 
 
 def _require_names(nodes: Sequence[Node]) -> None:

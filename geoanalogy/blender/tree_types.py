@@ -28,6 +28,9 @@ ICONS = {
 #: Called after a setting that only sifts results has been changed; `showing` puts itself here.
 on_sifted = []
 
+#: Called with the tree when its masses are to be shown in another way; `showing` puts itself here.
+on_merged = []
+
 #: Called after links of a tree have been changed; `tree_links` puts itself here.
 on_linked = []
 
@@ -44,6 +47,7 @@ class GEOANALOGY_NT_tree(bpy.types.NodeTree):
     merged: BoolProperty(
         name="Merge Masses",
         description="One mesh per label instead of one object per solid: for many, which are not corrected one by one",
+        update=lambda self, context: [show(self) for show in on_merged],
     )
 
     def _active(self):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from facades import frame, outline, ring
 from flats import activate, box, bridge, engine, face, operations_tree
-from houses import HEIGHT, SIZES, box_of, corners_of, extrude, houses, solids, volume_of, windows
+from houses import HEIGHT, SIZES, box_of, corners_of, draw, extrude, houses, parcels, place, solids, volume_of, windows
 from mathutils import Vector
 
 EXEC = "EXEC_DEFAULT"
@@ -176,3 +176,50 @@ def test_an_object_on_a_wall_is_learned_from_and_placed_on_walls_like_it():
         # None stands inside a house.
         for low, high in boxes.values():
             assert not all(a + 0.05 < v < b - 0.05 for a, v, b in zip(low[:2], at[:2], high[:2], strict=True))
+
+
+def test_walls_that_face_the_street_are_called_so():
+    corners = parcels()
+    for i in range(len(SIZES)):
+        bpy.data.objects[f"parcel {i}"]["ga_segment_labels"] = "street,,,"
+    houses(corners)
+    for item in solids("house"):
+        names = [slot.material.name for slot in item.material_slots]
+        front = names.index("street wall")
+        assert [p.normal.y for p in item.data.polygons if p.material_index == front] == pytest.approx([-1.0, -1.0])
+
+
+def test_heights_are_drawn_for_every_house_and_depend_on_the_seed():
+    corners = parcels()
+    draw("house", *(box_of(i, corners) for i in (0, 1)))
+    place(most=1, any_size=True)
+    extrude(label="house", height=3.0, factor=(0.5, 2.0))
+    first = [item.dimensions.z for item in solids("house")]
+    assert len({round(h, 3) for h in first}) == 4 and all(1.5 <= h <= 6.0 for h in first)
+    operations_tree().seed = 5
+    bpy.ops.geoanalogy.apply(EXEC, True)
+    assert [item.dimensions.z for item in solids("house")] != pytest.approx(first)
+    operations_tree().seed = 0
+    bpy.ops.geoanalogy.apply(EXEC, True)
+    assert [item.dimensions.z for item in solids("house")] == pytest.approx(first)
+
+
+def test_nodes_show_how_long_they_took_and_can_be_added():
+    _, node = houses()
+    assert node["seconds"] > 0
+    tree = operations_tree()
+    made = bridge("new_nodes").new_node(tree, "selection", "house")
+    assert made["stale"] and made.works_on == "house" and made.weights == "1, 1"
+    made.weights = "1, 2, 3"
+    assert [socket.name for socket in made.outputs] == ["Set 1", "Set 2", "Set 3"]
+    made.weights = "1, two"
+    assert made["problem"] == "the weights '1, two' are no numbers; give one per set, with commas between them"
+    made.within = "parent"
+    made.works_on = "flat roof"
+    tree.links.new(tree.nodes["extrude house"].outputs[0], made.inputs[0])
+    assert bpy.ops.geoanalogy.apply(EXEC, True) == {"FINISHED"}
+    assert made["count"] == 4 and "stale" not in made
+    combined = bridge("new_nodes").new_node(tree, "boolean", "house")
+    combined.combination, combined.target = "subtract", "siblings"
+    operation = bridge("tree_store").engine_node(combined).operation
+    assert (operation.kind, operation.target) == ("subtract", "siblings")

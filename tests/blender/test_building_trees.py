@@ -159,6 +159,7 @@ def test_trees_grow_onto_each_other(tmp_path):
     whole, tree = volumes(), operations_tree()
     assert bpy.ops.geoanalogy.export_tree(EXEC, filepath=str(tmp_path / "house.json")) == {"FINISHED"}
     plain = json.loads((tmp_path / "house.json").read_text())
+    assert all("rectangle" not in node["settings"].get("mesh", "") for node in plain["nodes"])
     mass, facade = plain["nodes"][:2], plain["nodes"][2:]
     facade[0]["inputs"] = []
     for name, nodes in (("mass", mass), ("facade", facade)):
@@ -252,11 +253,18 @@ def test_a_parcel_that_cannot_be_used_is_left_out_and_named():
     houses()
     every = volumes()
     face("parcel 9", [(100, 0), (110, 10), (110, 0), (100, 10)], "parcel")
-    face("parcel x", [(130, 0), (130.0001, 0), (130.0001, 0.0001)], "parcel")
-    bridge("parcels")
-    (report,) = [bridge("whole").show_whole(bpy.context)]
+    face("parcel 10", [(130, 0), (130.00001, 0), (130.00001, 0.00001)], "parcel")
+    plan = bpy.data.collections.new("plan")
+    bpy.context.scene.collection.children.link(plan)
+    bpy.context.scene.geoanalogy.plan = plan
+    nameless = face("parcel 11", [(140, 0), (150, 0), (150, 10)])
+    bpy.context.scene.collection.objects.unlink(nameless)
+    plan.objects.link(nameless)
+    report = bridge("whole").show_whole(bpy.context)
     assert volumes() == every
-    assert any("parcel 9" in p and p.endswith("it is left out") for p in report.problems)
+    assert any("'parcel 9'" in p and p.endswith("it is left out") for p in report.problems)
+    assert any("'parcel 11' of the plan has no label" in p for p in report.problems)
+    assert operations_tree().nodes["extrude house"]["count"] == 4
     assert bpy.ops.geoanalogy.apply(EXEC, True) == {"FINISHED"}
 
 
@@ -297,7 +305,6 @@ def test_masses_are_merged_per_label_on_demand():
     windows(corners)
     single = sum(volumes().values())
     operations_tree().merged = True
-    bpy.ops.geoanalogy.apply(EXEC, True)
     (mass,) = solids("house")
     assert volume_of(mass) == pytest.approx(single, rel=1e-5)
     names = json.loads(mass.data["ga_surfaces"])
