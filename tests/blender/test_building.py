@@ -223,3 +223,25 @@ def test_nodes_show_how_long_they_took_and_can_be_added():
     combined.combination, combined.target = "subtract", "siblings"
     operation = bridge("tree_store").engine_node(combined).operation
     assert (operation.kind, operation.target) == ("subtract", "siblings")
+
+
+def test_objects_on_walls_are_examples_and_stand_there_once():
+    corners, _ = houses()
+    shutters = []
+    for i in (0, 1):
+        (x0, y0, _), _ = box_of(i, corners)
+        shutters.append(box(f"Shutter {i}", (0.4, 0.06, 1.2), "shutter", at=(x0 + 1.0, y0 - 0.03, 1.0)))
+        if i:
+            shutters[1].data = shutters[0].data
+    activate(*shutters)
+    node = place(most=1)
+    made = [i for i in bpy.context.scene.objects if i.get("ga_node") == node.name]
+    bpy.context.view_layer.update()
+    # One on each of sixteen walls; two of them are the examples themselves.
+    assert len(made) == 14 and {item.data for item in made} == {shutters[0].data}
+    places = [tuple(np.round(item.matrix_world.translation, 3)) for item in [*made, *shutters]]
+    assert len(set(places)) == 16
+    assert {round(item.matrix_world.translation.z, 3) for item in made} == {1.0}
+    assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
+    again = [i for i in bpy.context.scene.objects if i.get("ga_node") == node.name]
+    assert sorted(tuple(np.round(i.matrix_world.translation, 3)) for i in again) == sorted(places[:14])
