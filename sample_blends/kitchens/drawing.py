@@ -1,6 +1,6 @@
 """Pictures of kitchens: seen from above, the walls towards the viewer cut down; needs Blender.
 
-python -m sample_blends.kitchens.drawing --tree TREE.json --rooms ROOMS.geojson --output PICTURE.png [--turn DEGREES]
+python -m sample_blends.kitchens.drawing --tree TREE.json --rooms ROOMS.geojson --output PICTURE.png [--turn DEGREES …]
 """
 
 from __future__ import annotations
@@ -8,7 +8,6 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Collection, Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,14 +17,11 @@ import geoanalogy as ga
 from geoanalogy.geometry.boolean import combined
 from geoanalogy.geometry.extrusion import FaceLabels, extrude
 from geoanalogy.geometry.frame import Frame
-from geoanalogy.geometry.mesh import Mesh, joined
+from geoanalogy.geometry.mesh import Mesh
 from geoanalogy.operations.applied import with_geometry
 from geoanalogy.operations.element import Element
 
-from ..library import ASSETS
-from ..library.fittings import FITTINGS
-from ..library.palette import PALETTE
-from ..library.solids import Solid
+from ..pictures import draw, finished, library
 from .rooms import KITCHEN
 
 #: Finish of a face by the last word of its label that is found here.
@@ -67,29 +63,6 @@ SILL = 0.06
 
 #: Thickness that is certainly more than that of a wall.
 WALL = 0.3
-
-
-def engine_mesh(solid: Solid) -> Mesh:
-    """A solid of the library as the engine's mesh."""
-    faces = [(f[0], f[i], f[i + 1]) for f in solid.faces for i in range(1, len(f) - 1)]
-    names = sorted(set(solid.materials))
-    index = [names.index(m) for f, m in zip(solid.faces, solid.materials, strict=True) for _ in range(len(f) - 2)]
-    triangles = np.array(faces, dtype=np.intp)
-    uv = solid.vertices[triangles][:, :, :2]
-    return Mesh(solid.vertices, triangles, uv, tuple(names), np.array(index, dtype=np.intp))
-
-
-def library() -> dict[str, Mesh]:
-    """All fittings and furniture by their names."""
-    made = {name: engine_mesh(fitting.solid()) for name, fitting in FITTINGS.items()}
-    return {**{name: engine_mesh(a.solid()) for name, a in ASSETS.items() if a.family == "furniture"}, **made}
-
-
-def finish(label: str) -> str:
-    """The finish of a face by its label; what is part of a thing of the library has its own."""
-    if label in PALETTE:
-        return label
-    return next((FINISHES[word] for word in reversed(label.split()) if word in FINISHES), "wall")
 
 
 def near_edges(room: ga.Polygon, towards: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -166,39 +139,7 @@ def meshes(applied: ga.operations.applied.Applied, rooms: ga.Scene, towards: np.
             e = opened(e, room, towards, shapely.union_all(talls.get(str(room.id), [])))
         mesh = with_geometry(e, things).mesh
         if isinstance(mesh, Mesh) and not (e.owner and hidden(e, mesh.vertices, room, towards)):
-            yield mesh
-
-
-def draw(
-    applied: ga.operations.applied.Applied,
-    rooms: ga.Scene,
-    picture: Path,
-    turn: float,
-    elevation: float = 56.0,
-    size: tuple[int, int] = (2000, 1500),
-    samples: int = 24,
-) -> None:
-    """Render what has been built in rooms, seen from an angle in degrees (-90: from the wall with the door)."""
-    import bpy
-
-    from geoanalogy.blender.buildings import mesh_data
-
-    from .. import stage
-    from ..library.materials import material
-
-    angle = np.radians(turn)
-    scene = stage.clear()
-    whole = joined(list(meshes(applied, rooms, np.array([np.cos(angle), np.sin(angle)]))))
-    names = tuple(finish(name) for name in whole.materials)
-    for name in names:
-        material(name)
-    data = mesh_data("Kitchens", replace(whole, materials=names))
-    stage.collection(scene, "Kitchens").objects.link(bpy.data.objects.new("Kitchens", data))
-    stage.settings(scene, *size, samples)
-    stage.light(scene)
-    stage.ground(scene, whole.vertices, "hall stone", z=-0.14)
-    stage.camera(scene, whole.vertices, elevation=elevation, turn=turn, margin=0.02)
-    stage.render(scene, picture)
+            yield finished(mesh, FINISHES, "wall")
 
 
 def main() -> int:
@@ -206,7 +147,7 @@ def main() -> int:
     parser.add_argument("--tree", type=Path, required=True)
     parser.add_argument("--rooms", type=Path, required=True)
     parser.add_argument("--output", type=Path, required=True)
-    parser.add_argument("--turn", type=float, nargs="+", default=[-75.0])
+    parser.add_argument("--turn", type=float, nargs="+", default=[-82.0, 98.0])
     parser.add_argument("--seed", type=int, default=7)
     parser.add_argument("--only", nargs="*", help="ids of the rooms (default: all)")
     parser.add_argument("--size", type=int, nargs=2, default=(2000, 1500))
@@ -218,7 +159,9 @@ def main() -> int:
     applied = ga.OperationsTree.load(arguments.tree).apply(rooms, arguments.seed)
     for k, turn in enumerate(arguments.turn):
         name = arguments.output if not k else arguments.output.with_stem(f"{arguments.output.stem}-{k + 1}")
-        draw(applied, rooms, name, turn, size=tuple(arguments.size), samples=arguments.samples)
+        towards = np.array([np.cos(np.radians(turn)), np.sin(np.radians(turn))])
+        seen = list(meshes(applied, rooms, towards))
+        draw(seen, name, turn, 56.0, tuple(arguments.size), arguments.samples, ("hall stone", -0.14))
     return 0
 
 

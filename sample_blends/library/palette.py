@@ -78,6 +78,7 @@ PALETTE: dict[str, Finish] = {
     "glass": Finish("#E9F4F4", 0.02, transmission=0.95),
     "window glass": Finish("#BFDDE6", 0.05, transmission=0.7),
     "daylight": Finish("#DDEBF4", 0.2, glow=1.1),
+    "night glass": Finish("#22364A", 0.08, coat=0.8),
     "mirror": Finish("#DDE6EA", 0.03, metallic=1.0),
     "screen": Finish("#0B0D12", 0.12, coat=0.8),
     "screen image": Finish("#3D6E9E", 0.2, glow=0.35),

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from ..houses.parts import along_bottom, level_bar, over, upright_bar
 from ..houses.recorder import Box, Draw, Recorder, Sheet
 from .lots import LOT
+from .mass import NOTCH
 
 STREET, SIDE, REAR = "street base wall", "side base wall", "rear base wall"
 SHAFT, WINGED, CROWN = "middle wall", "winged wall", "top wall"
@@ -92,8 +93,8 @@ def base(r: Recorder) -> None:
     r.place("entrance", STREET, middle(4.4, 5.4), 4, max_per={STREET: 1})
     r.recess("entrance", 1.2, "entrance glass")
     r.place("portal", STREET, over("entrance", 0.8, 0.0, 1.6), 4, max_per={STREET: 1})
-    r.attach("portal", 0.5)
-    r.place("canopy", "portal", band(1.0, 1.35, out=0.0), 3, max_per={"portal": 1})
+    r.attach("portal", 0.5, top="portal front")
+    r.place("canopy", "portal front", band(1.0, 1.35), 3, max_per={"portal front": 1})
     r.extrude("canopy", 2.2)
     r.place(
         "door post",
@@ -161,9 +162,9 @@ def base(r: Recorder) -> None:
 
 def shaft(r: Recorder) -> None:
     """Two styles by chance: slots with spandrels between piers, or windows with sills and bars."""
-    for wall in (SHAFT, WINGED):
+    for wall, out in ((SHAFT, 0.0), (WINGED, -NOTCH - 0.1)):
         r.place("belt", wall, band(0.0, 0.7, from_top=False), 4, max_per={wall: 1})
-        r.place("parapet band", wall, band(0.0, 1.2), 4, max_per={wall: 1})
+        r.place("parapet band", wall, band(0.0, 1.2, out=out), 4, max_per={wall: 1})
     r.place("frieze", SHAFT, band(2.0, 2.5), 4, max_per={SHAFT: 1})
     r.extrude("belt", 0.35)
     r.extrude("parapet band", 0.3)

@@ -18,8 +18,11 @@ OCTAGON = tuple(
 )
 ROUND = tuple((round(0.5 * float(np.cos(a)), 6), round(0.5 * float(np.sin(a)), 6)) for a in np.arange(12) * np.pi / 6)
 
-#: Seeds of the choices of shapes and crowns: each is seen three times in the lots that are recorded.
-SHAPES, CROWNS = 0, 0
+#: Width of the notches in the corners of shafts with wings.
+NOTCH = 2.6
+
+#: Seeds of the choices of shapes and crowns: in the lots that are recorded, each is seen more than once.
+SHAPES, CROWNS = 8, 0
 
 
 def inset(along: float, across: float | None = None) -> Draw:
@@ -114,7 +117,7 @@ def shafts(r: Recorder) -> None:
     r.merge("shaft")
     r.merge("wing")
     for rear in (False, True):
-        r.place("notch", "shaft terrace", corners(2.6, rear), 6, max_per={"shaft terrace": 2})
+        r.place("notch", "shaft terrace", corners(NOTCH, rear), 6, max_per={"shaft terrace": 2})
     r.extrude("notch", 26.0, (0.7, 1.3), inwards=True, side="notch wall", top="notch terrace")
     r.subtract("notch")
     r.at = (*ends, *r.at)
