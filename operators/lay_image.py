@@ -1,6 +1,7 @@
 """Lay an image over the query and all similar regions."""
 
 import bpy
+from bpy.props import FloatProperty
 
 from ..geoanalogy.blender.region_recording import image_steps
 from ..geoanalogy.blender.region_results import uncertain_results
@@ -13,6 +14,13 @@ class GEOANALOGY_OT_lay_image(LongEdit, bpy.types.Operator):
     bl_idname = "geoanalogy.lay_image"
     bl_label = "Lay Image"
 
+    width: FloatProperty(
+        name="Width",
+        description="How far the image reaches beside a stroke, as a share of its length; 0: as far as the match does",
+        min=0.0,
+        max=1.0,
+    )
+
     @classmethod
     def poll(cls, context):
         return needs_operations(cls, context)
@@ -20,7 +28,7 @@ class GEOANALOGY_OT_lay_image(LongEdit, bpy.types.Operator):
     def steps(self, context):
         """Make the patch, and carry it over."""
         node = active_operation(context)
-        count = yield from image_steps(context, node, context.scene.geoanalogy.image)
+        count = yield from image_steps(context, node, context.scene.geoanalogy.image, round(self.width, 6))
         uncertain = len(uncertain_results(node))
         return f"Laid over {count + 1} regions" + (f", {uncertain} uncertain" if uncertain else "")
 

@@ -11,6 +11,7 @@ from time import perf_counter
 
 import bpy
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from ..errors import InputError
@@ -195,7 +196,9 @@ def carry_steps(
     return write_transfer(context.scene, node, made)
 
 
-def image_steps(context: bpy.types.Context, node: bpy.types.Node, image: bpy.types.Image | None) -> Stepper[int]:
+def image_steps(
+    context: bpy.types.Context, node: bpy.types.Node, image: bpy.types.Image | None, width: float = 0.0
+) -> Stepper[int]:
     """Lay an image over the query of an operation, and carry it over to all regions that it shows.
 
     Parameters
@@ -205,6 +208,8 @@ def image_steps(context: bpy.types.Context, node: bpy.types.Node, image: bpy.typ
         Of a region transfer.
     image : bpy.types.Image or None
         With alpha; it fills the box round the query.
+    width : float
+        How far it reaches beside a stroke, as a share of the stroke's length; 0: as far as lines belong to it.
 
     Returns
     -------
@@ -220,7 +225,10 @@ def image_steps(context: bpy.types.Context, node: bpy.types.Node, image: bpy.typ
     if image is None:
         raise InputError("there is no image; choose one that is painted for the query")
     drawn = read_drawn_lines(context)
-    patch = lay_image(context, engine_node(node).operation, image, plane_of(node), drawn.size)
+    operation = engine_node(node).operation
+    if width > 0.0:
+        operation = replace(operation, options=replace(operation.options, reach=width))
+    patch = lay_image(context, operation.region, image, plane_of(node), drawn.size)
     try:
         return (yield from carry_steps(context, node, [patch]))
     except BaseException:
@@ -231,17 +239,17 @@ def image_steps(context: bpy.types.Context, node: bpy.types.Node, image: bpy.typ
 
 
 def lay_image(
-    context: bpy.types.Context, operation: RegionTransfer, image: bpy.types.Image, plane: Plane, size: float
+    context: bpy.types.Context, region: shapely.Geometry, image: bpy.types.Image, plane: Plane, size: float
 ) -> bpy.types.Object:
-    """Lay an image over the query of an operation: below the lines, above the images that were laid before.
+    """Lay an image over a region: below the lines, above the images that were laid before.
 
     Parameters
     ----------
     context : bpy.types.Context
-    operation : RegionTransfer
+    region : shapely geometry
     image : bpy.types.Image
     plane : Plane
-        Of the query.
+        That the region is on.
     size : float
         Of the drawing.
 
@@ -252,7 +260,7 @@ def lay_image(
     """
     laid = sum(item.get(names.CONTENT) == "image" for item in context.scene.objects if names.KEY not in item)
     height = size * (ABOVE_EACH_OTHER * laid - BELOW_LINES)
-    patch = add_patch(context.scene, operation.region, image, plane, height, image.name.rsplit(".", 1)[0])
+    patch = add_patch(context.scene, region, image, plane, height, image.name.rsplit(".", 1)[0])
     patch[names.CONTENT] = "image"
     return patch
 

@@ -19,7 +19,7 @@ from geoanalogy.progress import run
 
 from .. import stage
 from .picture import Edit, Picture, painted
-from .truth import options_of, picture_of
+from .truth import FOUND, options_of, picture_of
 
 #: Pixels of the longer side of a background, which is soft, and of a rendered picture.
 BACKGROUND, RENDERED = 320, 1200
@@ -101,18 +101,37 @@ def add_paper(picture: Picture, scene: bpy.types.Scene) -> None:
     stage.collection(scene, "Stage").objects.link(item)
 
 
+def mistaken(edit: Edit, node: bpy.types.Node) -> list[str]:
+    """The regions that an artist would reject: those that are none of the places where the edit belongs."""
+    from geoanalogy.blender.region_results import passing, targets_found
+    from geoanalogy.blender.tree_store import engine_node
+
+    wrong = []
+    for target in passing(engine_node(node).operation, targets_found(node)):
+        there = [truth(np.asarray(edit.query)) for truth in edit.truth]
+        off = [np.median(np.linalg.norm(target.outline[: len(t)] - t, axis=1)) for t in there]
+        size = [np.linalg.norm(np.ptp(t, axis=0)) for t in there]
+        if np.min(np.array(off) / size) >= FOUND:
+            wrong.append(target.key)
+    return wrong
+
+
 def record(edit: Edit) -> bpy.types.Node:
     """Make an edit as a user does: draw the query, find what is like it, lay the image."""
     from geoanalogy.blender import region_queries, region_recording
+    from geoanalogy.blender.region_decisions import write_decisions
 
     context = bpy.context
     points = np.column_stack([edit.query, np.zeros(len(edit.query))])
     query = region_queries.add_query(context, [points], edit.closed, name=edit.name)
     steps = region_recording.region_steps(context, query, options_of(edit), threshold=edit.threshold)
     node = run(steps)
-    region = np.array(region_recording.engine_node(node).operation.region.bounds).reshape(2, 2)
-    image = image_of(edit.name, painted(edit.paint, region[0], region[1], edit.pixels))
-    run(region_recording.image_steps(context, node, image))
+    for key in mistaken(edit, node):
+        decisions = region_recording.engine_node(node).operation.decisions.reject(key)
+        write_decisions(context.scene, node, decisions)
+    low, high = np.array(edit.region.bounds).reshape(2, 2)
+    image = image_of(edit.name, painted(edit.paint, low, high, edit.pixels))
+    run(region_recording.image_steps(context, node, image, edit.width))
     return node
 
 

@@ -158,7 +158,11 @@ def picture() -> Picture:
         strokes,
         [
             Edit(
-                "butterfly", warps[0](ring), lambda p: wings(home(p)), [then(home, w) for w in warps[1:]], threshold=0.2
+                "butterfly",
+                warps[0](ring),
+                lambda p: wings(home(p)),
+                [then(home, w) for w in warps[1:]],
+                threshold=0.15,
             )
         ],
         garden,

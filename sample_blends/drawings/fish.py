@@ -49,14 +49,27 @@ FISH = [BACK, BELLY, TAIL, DORSAL, ANAL, BREAST, *DETAILS]
 BODY = np.vstack([BACK.polyline(), TAIL.polyline(), BELLY.polyline()[::-1]])
 FINS = [np.vstack([DORSAL.polyline(), [(0.0, 0.3)]]), np.vstack([ANAL.polyline(), [(-0.4, -0.2)]])]
 
+
+def lobes(first: float, side: float) -> list[Stroke]:
+    """One edge of a blade, with pointed lobes that grow smaller towards the tip."""
+    pieces, x, at = [], first, (0.0, 0.1 * side)
+    while x < 2.4:
+        size = 1.15 - 0.3 * x
+        tip = (x + 0.36, (0.1 + 0.36 * size) * side)
+        notch = (x + 0.3, 0.09 * side)
+        pieces += [curve([at, (x, 0.1 * side), (x + 0.12, (0.1 + 0.25 * size) * side), tip], count=8)]
+        pieces += [curve([tip, (x + 0.26, (0.1 + 0.16 * size) * side), notch], count=5)]
+        x, at = x + 0.5, notch
+    return [*pieces, curve([at, (2.7, 0.07 * side), (3.0, 0.0)], count=6)]
+
+
 #: A blade of seaweed, rooted at x = 0.
-BLADE = joined(
-    curve([(0, -0.16), (0.5, -0.06), (1.0, -0.2), (1.5, -0.08), (2.0, -0.17), (2.6, -0.05), (3.0, 0.0)], count=40),
-    curve([(3.0, 0.0), (2.55, 0.12), (2.05, 0.05), (1.55, 0.17), (1.05, 0.07), (0.5, 0.19), (0, 0.14)], count=40),
-    closed=False,
-)
-VEIN = curve([(0.05, 0.0), (0.6, 0.05), (1.1, -0.07), (1.6, 0.05), (2.1, -0.05), (2.75, 0.01)], count=26, width=0.6)
-NICKS = [curve([(x, 0.0), (x + 0.16, y)], count=4, width=0.6) for x, y in ((0.75, 0.1), (1.3, -0.1), (1.85, 0.08))]
+BLADE = joined(*lobes(0.3, 1.0), *(Stroke(s.points[::-1]) for s in lobes(0.52, -1.0)[::-1]), closed=False)
+VEIN = curve([(0.05, 0.0), (0.6, 0.03), (1.1, -0.03), (1.6, 0.03), (2.1, -0.02), (2.75, 0.0)], count=26, width=0.6)
+NICKS = [
+    curve([(x, 0.0), (x + 0.3, y)], count=4, width=0.6)
+    for x, y in ((0.3, 0.3), (0.52, -0.3), (0.8, 0.26), (1.02, -0.24), (1.3, 0.22), (1.52, -0.2), (1.8, 0.18))
+]
 WEED = [BLADE, VEIN, *NICKS]
 
 SPINES: list[tuple[list[tuple[float, float]], tuple[float, ...], float]] = [
@@ -69,11 +82,11 @@ SPINES: list[tuple[list[tuple[float, float]], tuple[float, ...], float]] = [
     ([(12.3, 1.5), (13.4, 1.6), (14.6, 2.3)], (0.7, 1.1, 1.0), 1.0),
 ]
 STALKS: list[list[tuple[float, float]]] = [
-    [(5.9, 0.4), (6.0, 2.0), (5.8, 3.6), (6.2, 5.1)],
-    [(11.2, 0.4), (11.5, 2.0), (11.1, 3.4), (11.7, 5.2), (11.4, 6.6)],
-    [(1.9, 0.4), (1.5, 1.3), (2.0, 2.4), (2.4, 3.5), (2.2, 4.5)],
-    [(8.6, 0.4), (8.3, 1.4), (8.7, 2.5), (8.4, 3.6), (8.9, 4.8)],
-    [(13.9, 0.4), (14.3, 1.4), (13.8, 2.6), (14.2, 4.0)],
+    [(5.7, 0.4), (5.8, 1.9), (5.6, 3.4), (5.9, 4.7)],
+    [(11.2, 0.4), (11.4, 2.0), (11.2, 3.6), (11.7, 5.4)],
+    [(1.9, 0.4), (1.6, 1.4), (1.9, 2.5), (2.3, 3.5)],
+    [(8.6, 0.4), (8.4, 1.4), (8.6, 2.6), (8.4, 3.8)],
+    [(13.9, 0.4), (14.2, 1.4), (13.9, 2.6), (14.2, 3.6)],
 ]
 
 
@@ -114,7 +127,8 @@ def weed(points: Array) -> Array:
     colour = mixed((0.05, 0.3, 0.2), (0.5, 0.72, 0.2), x / 3.0)
     vein = np.interp(x, VEIN.points[:, 0], VEIN.points[:, 1])
     colour = over(colour, (0.78, 0.88, 0.45), 0.8 * step(0.028 - np.abs(y - vein), 0.0, 0.02))
-    colour = over(colour, (0.03, 0.2, 0.14), 0.35 * (np.sin(26 * x + 9 * np.abs(y)) > 0.55))
+    colour = over(colour, (0.03, 0.2, 0.14), 0.4 * (np.sin(26 * (x - np.abs(y))) > 0.55))
+    colour = over(colour, (0.72, 0.84, 0.4), 0.6 * step(np.abs(y), 0.34, 0.2))
     return with_alpha(colour, within(BLADE.polyline())(points))
 
 
@@ -154,7 +168,7 @@ def picture() -> Picture:
     )
     strokes += behind([ground], fronts)
     home = inverse(swim[0], (-1.8, -0.9), (1.2, 0.95))
-    root = inverse(grow[0], (-0.1, -0.3), (3.1, 0.3))
+    root = inverse(grow[0], (-0.3, -0.7), (3.4, 0.7))
     outline = shapely.union_all([shapely.make_valid(shapely.polygons(o)) for o in (BODY, *FINS)])
     ring = shapely.get_coordinates(outline.buffer(0.08).exterior.simplify(0.01))[:-1]
     return Picture(
@@ -162,14 +176,15 @@ def picture() -> Picture:
         "3.6b",
         strokes,
         [
-            Edit("fish", swim[0](ring), lambda p: scales(home(p)), [then(home, w) for w in swim[1:]], threshold=0.2),
+            Edit("fish", swim[0](ring), lambda p: scales(home(p)), [then(home, w) for w in swim[1:]], threshold=0.12),
             Edit(
                 "seaweed",
                 grow[0](np.stack([np.linspace(0.03, 2.97, 40), np.zeros(40)], 1)),
                 lambda p: weed(root(p)),
                 [then(root, w) for w in grow[1:]],
                 closed=False,
-                options={"reach": 0.06},
+                options={"reach": 0.17},
+                threshold=0.15,
             ),
         ],
         water,

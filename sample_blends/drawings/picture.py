@@ -7,6 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+import shapely
+
+import geoanalogy as ga
+from geoanalogy.operations.region_transfer import region_of
 
 from .lines import Array, Stroke, Warp
 
@@ -35,6 +39,8 @@ class Edit:
         Of the longer side of its image.
     threshold : float or None
         Least similarity of what is painted; None: as found right by the engine.
+    width : float
+        Of a stroke: how far the image reaches on either side, as a share of its length; 0: as far as the match does.
     """
 
     name: str
@@ -45,6 +51,14 @@ class Edit:
     options: dict[str, Any] = field(default_factory=dict)
     pixels: int = 448
     threshold: float | None = None
+    width: float = 0.0
+
+    @property
+    def region(self) -> shapely.Geometry:
+        """What the image covers."""
+        kind = "region" if self.closed else "stroke"
+        reach = self.width or self.options.get("reach", ga.RegionOptions().reach)
+        return region_of(np.asarray(self.query), ga.RegionOptions(query_kind=kind, reach=reach))
 
 
 @dataclass(frozen=True)

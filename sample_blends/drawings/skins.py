@@ -6,7 +6,7 @@ import numpy as np
 
 from .lines import Array, Stroke, along, by_hand, curve, inverse, joined, then
 from .picture import Edit, Picture, mixed, over, step, with_alpha, within
-from .snakes import FACE, LOWER, OUTLINE, TONGUE, UPPER, desert
+from .snakes import FACE, LOWER, OPTIONS, OUTLINE, TONGUE, UPPER, desert
 
 #: Where the rings of the skin lie; between them run zigzags with dots, all much alike.
 RINGS = np.concatenate([np.arange(1.2, 7.5, 0.55), [7.75]])
@@ -45,11 +45,8 @@ def skin_lines() -> list[Stroke]:
 
 SKIN = skin_lines()
 SNAKE = [UPPER, LOWER, *FACE, *TONGUE, *SKIN]
-FIRST = along([(0.9, 4.2), (1.9, 6.3), (4.0, 6.2), (5.2, 7.6), (7.2, 8.9), (9.4, 8.3)], 0.0, 9.3)
-SECOND = along(
-    [(15.2, 0.9), (12.6, 0.8), (9.8, 1.4), (8.2, 3.2), (9.6, 5.0), (11.9, 4.4), (13.6, 5.6), (13.2, 7.6)],
-    0.0, 9.3, (0.9, 1.0, 1.05),
-)  # fmt: skip
+FIRST = along([(0.9, 5.9), (3.0, 7.4), (5.6, 7.5), (8.3, 8.7), (11.0, 9.1)], 0.0, 9.3)
+SECOND = along([(15.2, 1.2), (12.4, 1.0), (9.4, 2.2), (6.3, 2.6), (3.2, 1.6), (0.8, 3.0)], 0.0, 9.3, (0.95, 1.0, 1.05))
 
 
 def paint(points: Array) -> Array:
@@ -86,7 +83,7 @@ def picture() -> Picture:
         "skins",
         "3.7f",
         strokes,
-        [Edit("skin", ring, lambda p: paint(home(p)), [then(home, SECOND)], pixels=700)],
+        [Edit("skin", ring, lambda p: paint(home(p)), [then(home, SECOND)], pixels=700, options=OPTIONS)],
         desert,
         (0.0, 0.0),
         (16.0, 10.0),

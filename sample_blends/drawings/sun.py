@@ -1,10 +1,10 @@
-"""A sun in three operations (figure 3.7i): its wavy rays, its pointed rays, and the curls of its face."""
+"""A sun in three operations (figure 3.7i): its wavy rays, its pointed rays, and its eyes."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from .lines import Array, Stroke, Warp, along, by_hand, curve, ellipse, inverse, joined, then
+from .lines import Array, Warp, along, by_hand, curve, ellipse, inverse, joined, then
 from .picture import Edit, Picture, mixed, over, step, with_alpha, within
 
 MIDDLE = np.array([8.0, 5.0])
@@ -37,14 +37,20 @@ DART = [
     curve([(0.42, -0.2), (0.34, -0.08), (0.42, 0.0)], count=6, width=0.7),
 ]
 
-#: A rosy cheek: a whirl.
-TURN = np.linspace(0.0, 3.6 * np.pi, 40)
-WHIRL = Stroke(np.stack([(0.06 + 0.036 * TURN) * np.cos(TURN), (0.06 + 0.036 * TURN) * np.sin(TURN)], 1))
-LASHES = [
-    curve([(0.5 * np.cos(a), 0.5 * np.sin(a)), (0.66 * np.cos(a + 0.12), 0.66 * np.sin(a + 0.12))], count=4, width=0.7)
-    for a in (0.5, 0.9, 1.3)
-]
-CHEEK = [WHIRL, *LASHES]
+#: An eye with its lid, iris and lashes; the other one mirrors it.
+EYE = joined(
+    curve([(-0.55, -0.06), (-0.2, 0.26), (0.2, 0.28), (0.58, 0.02)], count=12),
+    curve([(0.58, 0.02), (0.2, -0.16), (-0.2, -0.2), (-0.55, -0.06)], count=12),
+)
+EYES = [
+    EYE,
+    ellipse(0.03, 0.05, 0.17, count=14),
+    ellipse(0.05, 0.07, 0.07, count=10),
+    curve([(-0.6, 0.22), (-0.15, 0.5), (0.35, 0.46), (0.62, 0.26)], count=12),
+    *(curve([(x, y), (1.25 * x + 0.12, 1.3 * y + 0.04)], count=4, width=0.7)
+      for x, y in ((0.58, 0.02), (0.46, 0.15), (0.3, 0.24))),
+    curve([(-0.3, -0.3), (0.0, -0.36), (0.3, -0.3)], count=6, width=0.7),
+]  # fmt: skip
 
 
 def ray(turn: float, reach: float, bend: float, side: float, end: float) -> Warp:
@@ -65,18 +71,12 @@ DARTS = [ray(np.radians(45 * i + 112.5), r, b, s, 1.6) for i, (r, b, s) in enume
     [(0.95, 0.0, 1), (1.1, 0.3, 1), (0.9, -0.35, 1), (1.05, 0.2, 1), (1.15, -0.2, 1), (0.9, 0.3, 1), (1.0, -0.3, 1),
      (1.1, 0.1, 1)]
 )]  # fmt: skip
-CHEEKS: list[Warp] = [
-    lambda p: np.asarray(p) * (0.85, 0.85) + MIDDLE + (-1.15, -0.45),
-    lambda p: np.asarray(p) * (-0.8, 0.8) + MIDDLE + (1.15, -0.5),
+GAZES: list[Warp] = [
+    lambda p: np.asarray(p) * (-0.85, 0.85) + MIDDLE + (-0.8, 0.5),
+    lambda p: np.asarray(p) * (0.8, 0.85) + MIDDLE + (0.82, 0.46),
 ]
 FACE = [
     ellipse(8.0, 5.0, 2.0, count=36),
-    curve([(7.1, 5.55), (7.35, 5.8), (7.65, 5.6)], count=10),
-    curve([(8.35, 5.6), (8.65, 5.8), (8.9, 5.52)], count=10),
-    ellipse(7.38, 5.52, 0.11, count=10),
-    ellipse(8.63, 5.5, 0.11, count=10),
-    curve([(7.0, 6.05), (7.3, 6.25), (7.75, 6.02)], count=9),
-    curve([(8.25, 6.0), (8.7, 6.28), (9.0, 6.0)], count=9),
     curve([(8.0, 5.75), (7.78, 5.05), (7.85, 4.82), (8.12, 4.8)], count=12),
     joined(
         curve([(7.3, 4.3), (7.65, 4.22), (8.0, 4.3), (8.4, 4.2), (8.75, 4.32)], count=16),
@@ -105,13 +105,18 @@ def dart(points: Array) -> Array:
     return with_alpha(colour, within(np.vstack([SPIKE.points, SPIKE.points[:1]]))(points))
 
 
-def blush(points: Array) -> Array:
-    """Rose, fading outwards, with a paler whirl."""
+def gaze(points: Array) -> Array:
+    """White, a blue iris with rays, a shadow under the lid."""
     x, y = points.T
-    r, a = np.hypot(x, y), np.arctan2(y, x)
-    wind = np.sin(a - (r - 0.06) / 0.036)
-    colour = mixed((0.9, 0.2, 0.2), (1.0, 0.55, 0.4), 0.5 + 0.5 * wind)
-    return with_alpha(colour, 0.95 * step(0.5 - r, 0.0, 0.12))
+    colour = mixed((0.8, 0.86, 0.95), (1.0, 1.0, 1.0), step(0.16 - y, 0.0, 0.12))
+    r, a = np.hypot(x - 0.03, y - 0.05), np.arctan2(y - 0.05, x - 0.03)
+    iris = mixed((0.1, 0.25, 0.6), (0.35, 0.65, 0.9), 0.5 + 0.5 * np.sin(14 * a))
+    colour = np.where((r < 0.17)[:, None], iris, colour)
+    colour = over(colour, (0.03, 0.03, 0.08), np.hypot(x - 0.05, y - 0.07) < 0.07)
+    colour = over(colour, (1.0, 1.0, 1.0), np.hypot(x - 0.0, y - 0.12) < 0.035)
+    lid = within(np.vstack([EYE.points[:12], EYES[3].points[::-1]]))(points)
+    colour = np.where((lid > 0)[:, None], mixed((0.95, 0.5, 0.2), (0.8, 0.3, 0.25), (x + 0.6) / 1.2), colour)
+    return with_alpha(colour, np.maximum(within(EYE.polyline())(points), lid))
 
 
 def sky(points: Array) -> Array:
@@ -128,8 +133,6 @@ def sky(points: Array) -> Array:
     colour = np.where((glow < 2.0)[:, None], disc, colour)
     mouth = within(FACE[-1].polyline())(points)
     colour = over(colour, (0.75, 0.12, 0.12), mouth)
-    for a, b in ((7.38, 5.52), (8.63, 5.5)):
-        colour = over(colour, (0.25, 0.12, 0.1), np.hypot(x - a, y - b) < 0.11)
     return with_alpha(colour, np.ones(len(points)))
 
 
@@ -137,7 +140,7 @@ def picture() -> Picture:
     """Sixteen rays and a face."""
     hand = np.random.default_rng(37)
     strokes = list(FACE)
-    for shape, places in ((FIRE, FLAMES), (DART, DARTS), (CHEEK, CHEEKS)):
+    for shape, places in ((FIRE, FLAMES), (DART, DARTS), (EYES, GAZES)):
         strokes += [s for w in places for s in by_hand([k.warped(w) for k in shape], 0.006, hand)]
     edits = []
     # A ray is open at the disc: its root stays outside the query, so that the disc does too.
@@ -157,15 +160,15 @@ def picture() -> Picture:
                 (0.05, -0.42),
             ]
         ),
-        ellipse(0.05, 0.05, 0.68, count=28).points,
+        ellipse(0.06, 0.06, 0.86, 0.58, count=28).points,
     )
     for name, ring, places, paint, box in (
         ("flames", rings[0], FLAMES, fire, ((-0.2, -0.8), (2.5, 0.8))),
         ("darts", rings[1], DARTS, dart, ((-0.2, -0.6), (2.0, 0.6))),
-        ("cheeks", rings[2], CHEEKS, blush, ((-1.0, -1.0), (1.0, 1.0))),
+        ("eyes", rings[2], GAZES, gaze, ((-1.0, -0.8), (1.0, 0.8))),
     ):
         home = inverse(places[0], *box)
-        dense = curve(ring, True, 60).points if name == "cheeks" else ring
+        dense = curve(ring, True, 60).points if name == "eyes" else ring
         dense = np.vstack(
             [a + (b - a) * t for a, b in zip(dense, np.roll(dense, -1, 0), strict=True) for t in (0, 0.5)]
         )
@@ -176,7 +179,7 @@ def picture() -> Picture:
                 lambda p, home=home, paint=paint: paint(home(p)),
                 [then(home, w) for w in places[1:]],
                 pixels=320,
-                threshold=0.2,
+                threshold=0.5,
             )
         )
     return Picture("sun", "3.7i", strokes, edits, sky, (0.0, 0.0), (16.0, 10.0))
