@@ -3,6 +3,7 @@
 import bpy
 
 from ..geoanalogy.blender import names
+from ..geoanalogy.blender.evaluating import evaluations
 from ..geoanalogy.blender.new_nodes import KINDS
 from ..geoanalogy.blender.tree_types import ICONS
 
@@ -53,6 +54,7 @@ class GEOANALOGY_PT_tree(bpy.types.Panel):
         layout.prop(tree, "merged")
         seconds = sum(float(node.get(names.SECONDS, 0.0)) for node in tree.nodes)
         layout.label(text=f"{len(tree.nodes)} operations, {seconds:.2f} s", icon="TIME")
+        layout.label(text=f"{evaluations.hit_rate:.0%} of all surfaces were known", icon="COPYDOWN")
         row = layout.row(align=True)
         row.operator("geoanalogy.import_tree", text="Import", icon="IMPORT")
         row.operator("geoanalogy.export_tree", text="Export", icon="EXPORT")

@@ -33,7 +33,7 @@ from .tree_store import (
     ordered_nodes,
     placed_by,
     plane_of,
-    sources_of,
+    sources_by_node,
     tree_of,
     works_everywhere,
 )
@@ -170,9 +170,10 @@ def read_surroundings(
     nodes = ordered_nodes(tree)
     engine = engine_tree(nodes, evaluations)
     where = {node.name: None if works_everywhere(node) else ground_for(grounds, plane_of(node)) for node in nodes}
+    by_node = {} if tree is None else sources_by_node(tree)
     for node in nodes:
         # A node goes where its source is: it builds on what that has placed.
-        for source, _ in sources_of(node):
+        for source, _ in by_node.get(node.name, ()):
             if where[node.name] is not None and where[source.name] is not None:
                 where[node.name] = where[source.name]
     found = []
@@ -306,9 +307,9 @@ def mark_stale(tree: bpy.types.NodeTree, node: bpy.types.Node) -> None:
     tree : bpy.types.NodeTree
     node : bpy.types.Node
     """
-    changed = {node.name}
+    changed, by_node = {node.name}, sources_by_node(tree)
     for other in ordered_nodes(tree):
-        if any(source.name in changed for source, _ in sources_of(other)):
+        if any(source.name in changed for source, _ in by_node.get(other.name, ())):
             changed.add(other.name)
             other[names.STALE] = True
 

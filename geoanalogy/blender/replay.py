@@ -115,6 +115,7 @@ def _on_polygons_steps(
     if seed is None:
         seed = tree.seed
     nodes = ordered_nodes(tree)
+    before = {node.id: node.operation for node in every[0].engine.nodes}
     for i, node in enumerate(nodes):
         own = [around for around in every if node in around.nodes]
         operation = yield from within(relearned_steps(own, node), 0.5 * i / len(nodes), 0.5 * (i + 1) / len(nodes))
@@ -128,7 +129,9 @@ def _on_polygons_steps(
         tree.seed = seed
     for node in nodes:
         around = next(around for around in every if node in around.nodes)
-        write_operation(node, around.engine.node(node.name))
+        after = around.engine.node(node.name)
+        if after.operation is not before[node.name]:
+            write_operation(node, after)
     shown = write_whole(context.scene, tree, every, layouts)
     context.view_layer.update()
     return Report(sum(not node.mute for node in operation_nodes(tree)), shown.objects, shown.masses, shown.problems)

@@ -8,7 +8,7 @@ import bpy
 from ..errors import InputError
 from ..operations.node import Link
 from . import names
-from .tree_store import sources_of
+from .tree_store import sources_by_node, sources_of
 
 
 def free_id(tree: bpy.types.NodeTree | None, wanted: str) -> str:
@@ -60,7 +60,8 @@ def open_outputs(nodes: Sequence[bpy.types.Node]) -> tuple[Link, ...]:
     -------
     tuple of Link
     """
-    used = {(source.name, output) for node in nodes for source, output in sources_of(node)}
+    by_node = sources_by_node(nodes[0].id_data) if nodes else {}
+    used = {(source.name, output) for node in nodes for source, output in by_node.get(node.name, ())}
     every = (Link(node.name, k) for node in nodes for k in range(len(node.outputs)))
     return tuple(link for link in every if (link.node, link.output) not in used)
 

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 import bpy
 
 from . import names, node_settings, tree_types
-from .tree_store import operation_nodes, ordered_nodes, sources_of
+from .tree_store import operation_nodes, ordered_nodes, sources_by_node
 
 
 def circle_in(tree: bpy.types.NodeTree) -> list[bpy.types.Node]:
@@ -93,8 +93,9 @@ def check_links(tree: bpy.types.NodeTree) -> None:
         tree[names.PROBLEM] = told
         _tell(told)
     changed: set[str] = set()
+    by_node = sources_by_node(tree)
     for node in ordered_nodes(tree):
-        sources = sources_of(node)
+        sources = by_node.get(node.name, [])
         now = _sources_text(node, sources)
         relinked = names.SOURCES in node and node[names.SOURCES] != now
         if relinked or any(source.name in changed for source, _ in sources):
@@ -113,9 +114,9 @@ def mark_edited(node: bpy.types.Node) -> None:
     ----------
     node : bpy.types.Node
     """
-    changed = {node.name}
+    changed, by_node = {node.name}, sources_by_node(node.id_data)
     for other in ordered_nodes(node.id_data):
-        if other.name in changed or any(source.name in changed for source, _ in sources_of(other)):
+        if other.name in changed or any(source.name in changed for source, _ in by_node.get(other.name, ())):
             changed.add(other.name)
             other[names.STALE] = True
 
@@ -128,8 +129,9 @@ def forget_changes(tree: bpy.types.NodeTree) -> None:
     tree : bpy.types.NodeTree
     """
     tree.pop(names.PROBLEM, None)
+    by_node = sources_by_node(tree)
     for node in operation_nodes(tree):
-        node[names.SOURCES] = _sources_text(node, sources_of(node))
+        node[names.SOURCES] = _sources_text(node, by_node.get(node.name, []))
 
 
 def _tell(sentence: str) -> None:

@@ -183,6 +183,37 @@ def sources_of(node: bpy.types.Node) -> list[tuple[bpy.types.Node, int]]:
     return found
 
 
+def sources_by_node(tree: bpy.types.NodeTree) -> dict[str, list[tuple[bpy.types.Node, int]]]:
+    """Where the input of every node comes from, in one look at the links: each socket would look through all of them.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree
+
+    Returns
+    -------
+    dict of str to list of (bpy.types.Node, int)
+        By the node's name, as `sources_of` lists them, but that their order is that in which they were linked.
+    """
+    into: dict[str, list[bpy.types.NodeLink]] = {}
+    for link in tree.links:
+        into.setdefault(link.to_node.name, []).append(link)
+
+    def sources(name: str) -> list[tuple[bpy.types.Node, int]]:
+        found = []
+        for link in into.get(name, ()):
+            source = link.from_node
+            if not hasattr(source.get(names.OPERATION), "items"):
+                found += sources(source.name)
+            elif len(source.outputs) == 1:
+                found.append((source, 0))
+            else:
+                found.append((source, list(source.outputs).index(link.from_socket)))
+        return found
+
+    return {name: sources(name) for name in into}
+
+
 def ordered_nodes(tree: bpy.types.NodeTree | None) -> list[bpy.types.Node]:
     """The nodes that carry an operation, inputs first.
 
@@ -200,7 +231,8 @@ def ordered_nodes(tree: bpy.types.NodeTree | None) -> list[bpy.types.Node]:
 
 def _inputs_first(nodes: Sequence[bpy.types.Node]) -> list[bpy.types.Node]:
     waiting = list(nodes)
-    sources = {node.name: [source.name for source, _ in sources_of(node)] for node in nodes}
+    by_node = sources_by_node(nodes[0].id_data) if nodes else {}
+    sources = {node.name: [source.name for source, _ in by_node.get(node.name, ())] for node in nodes}
     order: list[bpy.types.Node] = []
     done: set[str] = set()
     while waiting:
@@ -353,7 +385,8 @@ def write_operation(node: bpy.types.Node, operation: Node) -> None:
     if isinstance(operation.operation, RectanglePlacement):
         rule = [[relation.text, relation.weight] for relation in operation.operation.model.rule()]
         node[names.RULE] = json.dumps(rule, ensure_ascii=False)
-    node.mute = operation.muted
+    if node.mute != operation.muted:
+        node.mute = operation.muted
     _fit_outputs(node, operation.operation.outputs)
 
 
@@ -364,7 +397,9 @@ def _fit_outputs(node: bpy.types.Node, count: int) -> None:
     while len(node.outputs) < count:
         node.outputs.new(names.LAYOUT_SOCKET, "Layout")
     for i, socket in enumerate(node.outputs):
-        socket.name = f"Set {i + 1}" if count > 1 else "Layout"
+        name = f"Set {i + 1}" if count > 1 else "Layout"
+        if socket.name != name:
+            socket.name = name
 
 
 def add_node(tree: bpy.types.NodeTree, operation: Node, placed: Sequence[Placed], plane: Plane) -> bpy.types.Node:

@@ -17,7 +17,7 @@ from .evaluating import Surroundings, read_surroundings, write_node
 from .instances import arrange_collections, clear_results, collection_of, is_instance
 from .masses import write_masses
 from .tree_links import forget_changes
-from .tree_store import builds, ordered_nodes, placed_by, require_operations, works_everywhere
+from .tree_store import builds, ordered_nodes, placed_by, recorded_nodes, require_operations, works_everywhere
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,8 @@ def write_whole(
     nodes = ordered_nodes(tree)
     rank = [node.name for node in nodes]
     made = {item[names.NODE] for item in scene.objects if names.KEY in item}
-    clear_results(scene, [name for name in sorted(made - set(rank)) if collection_of(scene, name)])
+    gone = made - {node.name for node in recorded_nodes(tree)}
+    clear_results(scene, [name for name in sorted(gone) if collection_of(scene, name)])
     count, library = 0, set()
     for node in nodes:
         own = [
@@ -127,7 +128,7 @@ def write_whole(
     instances = (e for layout in layouts for e in layout.elements if is_instance(e))
     missing = {str(e.mesh): e.node for e in instances if e.mesh not in library}
     problems += [
-        f"node {node!r}: the library object {name!r} is missing; its places stay empty, add an object of that name"
+        f"node {node!r}: the library object {name!r} is missing; outlines take its places, add an object of that name"
         for name, node in missing.items()
     ]
     for node in nodes:

@@ -278,7 +278,7 @@ def test_a_missing_library_object_is_named_and_the_rest_is_built(tmp_path):
     tree.nodes["extrude window"].mute = True
     report = bridge("whole").show_whole(bpy.context)
     assert report.problems == (
-        "node 'window': the library object 'shutter' is missing; its places stay empty, add an object of that name",
+        "node 'window': the library object 'shutter' is missing; outlines take its places, add an object of that name",
     )
     assert len(volumes()) == 4 and node["problem"].startswith("the library object 'shutter' is missing")
 
@@ -482,3 +482,45 @@ def test_a_solid_is_extruded_in_one_step_of_undo():
     assert everything() == before
     bpy.ops.ed.redo()
     assert everything() == after
+
+
+def test_what_is_done_to_nodes_in_the_node_editor_is_seen():
+    corners, _ = houses()
+    whole = volumes()
+    windows(corners)
+    tree = operations_tree()
+    cut = tree.nodes["subtract window"]
+    cut.mute = True
+    assert cut["stale"]
+    assert bpy.ops.geoanalogy.apply(EXEC, True) == {"FINISHED"}
+    assert "stale" not in cut and volumes() == whole and len(solids("window")) == 16
+    for name in ("subtract window", "extrude window", "window"):
+        tree.nodes.remove(tree.nodes[name])
+    assert bpy.ops.geoanalogy.apply(EXEC, True) == {"FINISHED"}
+    assert volumes() == whole and solids("window") == []
+    assert not [i for i in bpy.context.scene.objects if i.get("ga_node") == "window"]
+    # A reroute between two nodes changes nothing.
+    link = next(k for k in tree.links if k.to_node.name == "extrude house")
+    source = link.from_socket
+    tree.links.remove(link)
+    reroute = tree.nodes.new("NodeReroute")
+    tree.links.new(source, reroute.inputs[0])
+    tree.links.new(reroute.outputs[0], tree.nodes["extrude house"].inputs[0])
+    assert bpy.ops.geoanalogy.apply(EXEC, True) == {"FINISHED"}
+    assert volumes() == whole
+    bridge("tree_links").check_links(tree)
+    assert bridge("tree_links").circle_in(tree) == []
+
+
+def test_a_setting_that_sifts_shows_the_walls_as_they_are_then():
+    corners, _ = houses()
+    whole = volumes()
+    windows(corners)
+    cut = volumes()
+    node = operations_tree().nodes["window"]
+    node.threshold = 1.0
+    few = volumes()
+    assert sum(cut.values()) <= sum(few.values()) <= sum(whole.values())
+    assert node["count"] < 16 and few != cut
+    node.threshold = 0.5
+    assert volumes() == cut
