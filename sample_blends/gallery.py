@@ -15,11 +15,15 @@ import geoanalogy as ga
 
 from .drawings import SCENES as DRAWINGS
 from .houses.plots import TYPES
+from .skyscrapers import __main__ as skyscrapers
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
 SCENES = ("apartment", "garden", "crowns", "street")
-HOUSES = "houses"
+HOUSES, KITCHENS, SKYSCRAPERS, INTERIORS = "houses", "kitchens", "skyscrapers", "interiors"
+
+#: Seed of what is built by chance, and the second camera of a scene that a tree has built.
+SEED, BEHIND = 7, "From behind"
 
 
 def rebuild(scene: str) -> None:
@@ -50,22 +54,64 @@ def draw_sheet(scene: str, folder: Path, anew: bool) -> None:
     subprocess.run(sheet, cwd=ROOT, check=True)
 
 
+def module(name: str, *arguments: str | Path) -> None:
+    """Run a module of the repository in a process of its own."""
+    subprocess.run([sys.executable, "-m", name, *map(str, arguments)], cwd=ROOT, check=True)
+
+
+def apply(tree: ga.OperationsTree, parcels: Path, folder: Path, name: str, seed: int, *more: str | Path) -> Path:
+    """Apply a tree to parcels, and write the scene."""
+    stored, blend = folder / f"{name}.json", folder / f"{name}.blend"
+    tree.save(stored)
+    command = [sys.executable, ROOT / "batch.py", "apply", "--tree", stored, "--parcels", parcels, "--seed", seed]
+    subprocess.run([*map(str, (*command, "--output", blend, *more))], check=True)
+    return blend
+
+
 def build_houses(folder: Path) -> None:
-    """Apply the trees of all types of houses, grown together, to the other plots; write the scene and its picture."""
+    """Apply the trees of all types of houses, grown together, to the other plots; the street and the gardens."""
     grown = ga.OperationsTree()
     for label in TYPES:
         grown = grown.with_tree(ga.OperationsTree.load(HERE / HOUSES / f"{label}.json"), (), f"{label} ")
-    tree = folder / f"{HOUSES}.json"
-    grown.save(tree)
-    command = [sys.executable, str(ROOT / "batch.py"), "apply", "--tree", str(tree), "--seed", "7"]
-    outputs = ["--output", str(folder / f"{HOUSES}.blend"), "--render", str(folder / f"{HOUSES}.png")]
-    subprocess.run([*command, "--parcels", str(HERE / HOUSES / "plots.geojson"), *outputs], check=True)
+    picture = ("--render", folder / f"{HOUSES}.png")
+    blend = apply(grown, HERE / HOUSES / "plots.geojson", folder, HOUSES, SEED, *picture)
+    module("sample_blends.view", blend, BEHIND, folder / f"{HOUSES}-2.png")
+
+
+def build_kitchens(folder: Path) -> None:
+    """Apply the kitchens' tree to the other rooms; two views, the walls towards the viewer cut down."""
+    things, rooms = folder / "library.blend", HERE / KITCHENS / "rooms.geojson"
+    module("sample_blends.library", things)
+    stored = HERE / KITCHENS / "kitchens.json"
+    apply(ga.OperationsTree.load(stored), rooms, folder, KITCHENS, SEED, "--library", things)
+    pictures = ("--tree", stored, "--rooms", rooms, "--seed", str(SEED))
+    module("sample_blends.kitchens.drawing", *pictures, "--output", folder / f"{KITCHENS}.png")
+
+
+def build_skyscrapers(folder: Path) -> None:
+    """Apply the four trees of skyscrapers, grown together, to the other lots; two views."""
+    apply(skyscrapers.grown(), HERE / SKYSCRAPERS / "lots.geojson", folder, SKYSCRAPERS, skyscrapers.SEED)
+    module("sample_blends.skyscrapers.drawing", "--output", folder / f"{SKYSCRAPERS}.png")
+
+
+def build_interiors(folder: Path) -> None:
+    """Furnish a storey of one of the houses; two views, the building cut open."""
+    views = ("--turn", "-70", "110")
+    module("sample_blends.interiors", "--output", folder / f"{INTERIORS}.png", *views)
+
+
+BUILDERS = {
+    HOUSES: build_houses,
+    KITCHENS: build_kitchens,
+    SKYSCRAPERS: build_skyscrapers,
+    INTERIORS: build_interiors,
+}
 
 
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("scenes", nargs="*", default=(*SCENES, HOUSES, *DRAWINGS), help="which ones (default: all)")
+    parser.add_argument("scenes", nargs="*", default=(*SCENES, *BUILDERS, *DRAWINGS), help="which ones (default: all)")
     parser.add_argument(
         "--output", type=Path, default=ROOT / "output", help="folder for the replayed scenes and pictures"
     )
@@ -73,10 +119,10 @@ def main() -> None:
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     for scene in arguments.scenes:
-        if scene == HOUSES:
-            if arguments.rebuild:
-                subprocess.run([sys.executable, "-m", "sample_blends.houses"], cwd=ROOT, check=True)
-            build_houses(arguments.output)
+        if scene in BUILDERS:
+            if arguments.rebuild and scene != INTERIORS:  # which is made of what others have recorded
+                module(f"sample_blends.{scene}")
+            BUILDERS[scene](arguments.output.resolve())
             continue
         if scene in DRAWINGS:
             draw_sheet(scene, arguments.output.resolve(), arguments.rebuild)

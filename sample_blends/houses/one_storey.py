@@ -63,8 +63,10 @@ def garden_windows(s: Sheet) -> Sequence[Box]:
 
 
 def skylight(s: Sheet) -> Sequence[Box]:
+    """In the middle between eaves and ridge, so that it keeps clear of both on lower roofs."""
     x0, y0, x1, y1 = s.edges
-    return [((x0 + x1) / 2 - 0.5, y0 + 1.6, (x0 + x1) / 2 + 0.5, y0 + 2.8)] if y1 - y0 > 4 else []
+    x, y = (x0 + x1) / 2, (y0 + y1) / 2
+    return [(x - 0.5, y - 0.6, x + 0.5, y + 0.6)] if y1 - y0 > 4 else []
 
 
 def gable_window(s: Sheet) -> Sequence[Box]:

@@ -22,6 +22,9 @@ from .session import Session
 
 HERE = Path(__file__).parent
 
+#: Of all chance in what is shown.
+SEED = 12
+
 #: The sessions in their order; all but the first draw on what the first has built.
 SESSIONS = {"mass": mass.record, "base": facades.base, "middle": facades.shaft, "top": facades.crown}
 

@@ -15,10 +15,7 @@ from geoanalogy.geometry.mesh import Mesh
 from geoanalogy.operations.chance import share
 
 from ..pictures import draw, finished
-from .__main__ import HERE, grown
-
-#: Of all chance in the pictures.
-SEED = 12
+from .__main__ import HERE, SEED, grown
 
 #: Finish of a face by the last word of its label that is found here; "" is the stone of the building.
 FINISHES = {

@@ -16,8 +16,6 @@ sys.path.append(str(ROOT))
 from sample_blends.skyscrapers import __main__ as skyscrapers  # noqa: E402
 from sample_blends.skyscrapers import lots  # noqa: E402
 
-SEED = 12
-
 
 @pytest.fixture(scope="module")
 def trees():
@@ -27,7 +25,7 @@ def trees():
 @pytest.fixture(scope="module")
 def masses(trees):
     scene = read_scene(skyscrapers.HERE / "lots.geojson")
-    return scene, trees["mass"].apply(scene, seed=SEED)
+    return scene, trees["mass"].apply(scene, seed=skyscrapers.SEED)
 
 
 def lot_of(element, scene):
@@ -47,7 +45,7 @@ def built(masses):
     scene, applied = masses
     first = {shape: id for id, shape in reversed(shape_of(applied, scene).items())}
     some = Scene([p for p in scene.polygons if p.id in first.values()])
-    return some, skyscrapers.grown().apply(some, seed=SEED)
+    return some, skyscrapers.grown().apply(some, seed=skyscrapers.SEED)
 
 
 def test_the_lots_are_those_of_the_script():
