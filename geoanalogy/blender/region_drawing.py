@@ -147,13 +147,14 @@ def plane_through(lines: Sequence[Array]) -> Plane:
     """
     points = np.vstack(lines)
     middle = points.mean(axis=0)
-    _, lengths, axes = np.linalg.svd(points - middle, full_matrices=True)
-    if len(lengths) < 2 or lengths[1] <= PARALLEL * max(lengths[0], np.finfo(float).tiny):
-        along = axes[0]
+    spread, axes = np.linalg.eigh((points - middle).T @ (points - middle))
+    lengths = np.sqrt(np.maximum(spread[::-1], 0.0))
+    if lengths[1] <= PARALLEL * max(lengths[0], np.finfo(float).tiny):
+        along = axes[:, 2]
         up = np.array((0.0, 0.0, 1.0)) if abs(along[2]) < 0.9 else np.array((0.0, -1.0, 0.0))
         normal = up - (up @ along) * along
     else:
-        normal = axes[2]
+        normal = axes[:, 0]
     return Plane.through(middle, _towards_viewer(normal))
 
 
