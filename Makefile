@@ -30,7 +30,7 @@ $(READY): pyproject.toml scripts/find_python scripts/list_requirements.py
 
 demo: $(READY)
 	@mkdir -p output
-	@$(PY) batch.py replay sample_blends/apartment.blend --output output/apartment.blend --render output/apartment.png
+	@$(PY) -m sample_blends.city --demo --output output
 
 # Each suite runs in a process of its own, and all of them run: the engine inside the extension is another copy.
 test: $(READY)

@@ -124,6 +124,9 @@ def main() -> None:
                 module(f"sample_blends.{scene}")
             BUILDERS[scene](arguments.output.resolve())
             continue
+        if scene == CITY:
+            subprocess.run([sys.executable, "-m", "sample_blends.city", "--output", str(arguments.output)], check=True)
+            continue
         if scene in DRAWINGS:
             draw_sheet(scene, arguments.output.resolve(), arguments.rebuild)
             continue

@@ -62,6 +62,8 @@ class Job:
         By the key: what each product says of itself.
     reused : int
         How many were there already.
+    failed : dict of str to str
+        By the key: why a tile could not be built.
     """
 
     scene: Scene
@@ -70,6 +72,7 @@ class Job:
     store: Store
     facts: dict[str, Mapping[str, Any]] = field(default_factory=dict)
     reused: int = 0
+    failed: dict[str, str] = field(default_factory=dict)
 
     @property
     def finished(self) -> bool:
@@ -90,7 +93,7 @@ class Job:
             Where somebody has taken a finished tile away.
         """
         for tile, key in zip(self.tiles, self.keys, strict=True):
-            if key in self.facts:
+            if key in self.facts and key not in self.failed:
                 product = self.store.find(key)
                 if product is None:
                     raise InputError(f"{tile.name} is no longer in {self.store.folder}; run the command again")
@@ -176,6 +179,8 @@ def generate(
             job.facts[key] = found.facts
     job.reused = len(job.facts)
     _Runner(job, text, waiting, choices, progress).run()
+    if job.failed and len(job.failed) == len(job.facts):
+        raise InputError(f"no tile could be built: {next(iter(job.failed.values()))}")
     return job
 
 
@@ -224,7 +229,8 @@ class _Runner:
         found = None if reason else self.job.store.find(key)
         if found is None:
             ids = ", ".join(map(repr, tile.parcels))
-            sentence = f"{tile.name} stays empty: {reason or 'it could not be kept'} (parcels {ids})"
+            self.job.failed[key] = reason or "it could not be kept"
+            sentence = f"{tile.name} stays empty: {self.job.failed[key]} (parcels {ids})"
             nothing = {"parcels": list(tile.parcels), "elements": 0, "known": 0, "surfaces": 0, "seconds": {}}
             self.job.facts[key] = {**nothing, "problems": [sentence]}
         else:

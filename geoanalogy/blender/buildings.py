@@ -32,6 +32,9 @@ DROP = 0.03
 #: Material of parcels whose label says nothing about what they look like.
 PARCEL = "parcel"
 
+#: Labels of streets on maps.
+STREETS = ("street", "road")
+
 #: The collection of parcels, ground, lamps and cameras.
 SURROUNDINGS = "Surroundings"
 
@@ -165,7 +168,7 @@ def _linked(
     for name, product in products:
         report(1.0, f"writing {name}")
         scene = _fresh()
-        built, extent = _buildings(scene, product, results.library, Scene([]))
+        built, extent, _ = _buildings(scene, product, results.library, Scene([]))
         points.append(extent)
         problems.update(dict.fromkeys(built.problems))
         instances += built.instances
@@ -186,8 +189,9 @@ def _linked(
     for library in bpy.data.libraries:
         if base is not None and Path(library.filepath).parent == folder:
             library.filepath = f"//{Path(os.path.relpath(library.filepath, base.parent)).as_posix()}"
-    points.append(_surroundings(scene, ground))
-    _place_to_look_from(scene, points)
+    extent, _, standing = put(scene, together([]).placed, results.library, ground)
+    points += [extent, _surroundings(scene, ground, standing)]
+    _place_to_look_from(scene, points, ground)
     return scene, Built(len(written), instances, tuple(problems))
 
 
@@ -235,13 +239,18 @@ def fill(scene: bpy.types.Scene, ground: Scene, product: Product, library: Path 
     InputError
         Where the library cannot be read, or nothing was built that could be drawn.
     """
-    built, extent = _buildings(scene, product, library, ground)
-    _place_to_look_from(scene, [extent, _surroundings(scene, ground)])
+    built, extent, standing = _buildings(scene, product, library, ground)
+    _place_to_look_from(scene, [extent, _surroundings(scene, ground, standing)], ground)
     return built
 
 
-def _buildings(scene: bpy.types.Scene, product: Product, library: Path | None, ground: Scene) -> tuple[Built, Array]:
-    """Masses and library objects, each in the collection of its label, and points that they lie within."""
+def _buildings(
+    scene: bpy.types.Scene, product: Product, library: Path | None, ground: Scene
+) -> tuple[Built, Array, frozenset[str]]:
+    """Put masses and library objects into the collections of their labels.
+
+    Returns also the points that they lie within, and which of them stand for polygons of the ground.
+    """
     masses = product.masses
     by_label: dict[str, list[int]] = {}
     for k, label in enumerate(masses.labels):
@@ -250,8 +259,8 @@ def _buildings(scene: bpy.types.Scene, product: Product, library: Path | None, g
         mass = bpy.data.objects.new(label, _mass(label, masses, those))
         mass[names.LABEL] = label
         holder(scene, label).objects.link(mass)
-    extent, problems = put(scene, product.placed, library, ground)
-    return Built(len(by_label), len(product.placed), problems), np.concatenate([_corners(masses), extent])
+    extent, problems, standing = put(scene, product.placed, library, ground)
+    return Built(len(by_label), len(product.placed), problems), np.concatenate([_corners(masses), extent]), standing
 
 
 def _mass(label: str, masses: Masses, those: Sequence[int]) -> bpy.types.Mesh:
@@ -275,19 +284,21 @@ def _corners(masses: Masses) -> Array:
     return (low[:, None] + choice * (high - low)[:, None]).reshape(-1, 3)
 
 
-def _surroundings(scene: bpy.types.Scene, ground: Scene) -> Array:
-    """The parcels, and the points that they lie within."""
-    parcels = _parcels(ground)
+def _surroundings(scene: bpy.types.Scene, ground: Scene, standing: frozenset[str]) -> Array:
+    """The parcels but those that something stands for, and the points that they lie within."""
+    parcels = _parcels(ground, standing)
     if len(parcels.faces):
         holder(scene, SURROUNDINGS).objects.link(bpy.data.objects.new("Parcels", mesh_data("Parcels", parcels)))
     return parcels.vertices
 
 
-def _place_to_look_from(scene: bpy.types.Scene, points: Sequence[Array]) -> None:
+def _place_to_look_from(scene: bpy.types.Scene, points: Sequence[Array], ground: Scene) -> None:
     everything = np.concatenate(points)
     if not len(everything):
         raise InputError("nothing was built and there are no parcels; check the labels of the parcels")
-    furnish(scene, holder(scene, SURROUNDINGS), everything, DROP)
+    # Between the streets of a map grass grows; a plan without any stands on the street itself.
+    finish = "verge" if any(p.label in STREETS for p in ground.polygons) else "ground"
+    furnish(scene, holder(scene, SURROUNDINGS), everything, DROP, finish)
 
 
 def mesh_data(name: str, mesh: Mesh) -> bpy.types.Mesh:
@@ -318,10 +329,12 @@ def mesh_data(name: str, mesh: Mesh) -> bpy.types.Mesh:
     return made
 
 
-def _parcels(ground: Scene) -> Mesh:
+def _parcels(ground: Scene, standing: frozenset[str]) -> Mesh:
     """The ground's polygons, smaller ones above those that they lie in."""
     made = []
     for polygon in ground.polygons:
+        if polygon.label in standing:
+            continue
         above, depth = ground.parent(str(polygon.id)), 1
         while above is not None:
             above, depth = ground.parent(str(above.id)), depth + 1

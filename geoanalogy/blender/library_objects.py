@@ -69,7 +69,9 @@ def corners(placed: Placed) -> Array:
     return (turned + placed.places[:, None, :3, 3]).reshape(-1, 3)
 
 
-def put(scene: bpy.types.Scene, placed: Placed, library: Path | None, ground: Scene) -> tuple[Array, tuple[str, ...]]:
+def put(
+    scene: bpy.types.Scene, placed: Placed, library: Path | None, ground: Scene
+) -> tuple[Array, tuple[str, ...], frozenset[str]]:
     """Put library objects in their places, as instances on points in a collection per label.
 
     A polygon of the ground whose label is the name of a library object is a place for it: a tree of a map.
@@ -88,6 +90,8 @@ def put(scene: bpy.types.Scene, placed: Placed, library: Path | None, ground: Sc
         Points that all of it lies within.
     tuple of str
         A sentence for every library object that is missing.
+    frozenset of str
+        Labels of the polygons of the ground that library objects stand for.
 
     Raises
     ------
@@ -118,7 +122,7 @@ def put(scene: bpy.types.Scene, placed: Placed, library: Path | None, ground: Sc
             scales = scales * size[those]
         _show(scene, label or names.UNLABELLED, source, positions, turns, scales)
     standing = [_on_the_ground(scene, ground, name, source) for name, source in sources.items()]
-    return np.concatenate([corners(placed), *standing]), tuple(problems.values())
+    return np.concatenate([corners(placed), *standing]), tuple(problems.values()), frozenset(sources)
 
 
 def _show(
@@ -140,7 +144,7 @@ def _on_the_ground(scene: bpy.types.Scene, ground: Scene, name: str, source: bpy
     turns = np.zeros((len(there), 3, 3))
     turns[:, 0, 0] = turns[:, 1, 1] = np.cos(angles)
     turns[:, 1, 0], turns[:, 0, 1], turns[:, 2, 2] = np.sin(angles), -np.sin(angles), 1.0
-    scales = np.array([max(p.bounds[1] - p.bounds[0]) / extent for p in there])
+    scales = np.array([float((p.bounds[2:] - p.bounds[:2]).max()) / extent for p in there])
     _show(scene, name, source, positions, turns, np.repeat(scales[:, None], 3, axis=1))
     reach = scales[:, None, None] * (CUBE - (0.5, 0.5, 0.0)) * (extent, extent, source.dimensions[2])
     return (positions[:, None] + reach).reshape(-1, 3)

@@ -33,7 +33,9 @@ MARGIN = 0.03
 REACH = 4.0
 
 
-def furnish(scene: bpy.types.Scene, holder: bpy.types.Collection, points: Array, depth: float) -> None:
+def furnish(
+    scene: bpy.types.Scene, holder: bpy.types.Collection, points: Array, depth: float, finish: str = "ground"
+) -> None:
     """Put ground, sun, sky and cameras round what stands in a scene.
 
     Parameters
@@ -46,6 +48,8 @@ def furnish(scene: bpy.types.Scene, holder: bpy.types.Collection, points: Array,
         Outermost points of all that is to be seen.
     depth : float
         How far the ground lies below the origin, scene units.
+    finish : str
+        Material of the ground.
     """
     low, high = points.min(axis=0), points.max(axis=0)
     reach = REACH * max(float((high - low).max()), 1.0)
@@ -53,7 +57,7 @@ def furnish(scene: bpy.types.Scene, holder: bpy.types.Collection, points: Array,
     z = min(float(low[2]), 0.0) - depth
     plane = bpy.data.meshes.new("Ground")
     plane.from_pydata([(x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z)], [], [(0, 1, 2, 3)])
-    plane.materials.append(material("ground"))
+    plane.materials.append(material(finish))
     holder.objects.link(bpy.data.objects.new("Ground", plane))
 
     lamp = bpy.data.lights.new("Sun", "SUN")
