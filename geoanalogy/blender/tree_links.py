@@ -56,7 +56,7 @@ def refuse_circles(tree: bpy.types.NodeTree) -> str | None:
 
 
 def _sources_text(node: bpy.types.Node, sources: Sequence[tuple[bpy.types.Node, int]]) -> str:
-    return json.dumps([[[source.name, output] for source, output in sources], node.mute])
+    return json.dumps([sorted([source.name, output] for source, output in sources), node.mute])
 
 
 #: Names of the trees whose links nobody looks at for the moment.

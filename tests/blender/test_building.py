@@ -11,6 +11,7 @@ from facades import frame, outline, ring
 from flats import activate, box, bridge, engine, face, operations_tree
 from houses import HEIGHT, SIZES, box_of, corners_of, draw, extrude, houses, parcels, place, solids, volume_of, windows
 from mathutils import Vector
+from test_batch import batch_command, run
 
 EXEC = "EXEC_DEFAULT"
 
@@ -245,3 +246,47 @@ def test_objects_on_walls_are_examples_and_stand_there_once():
     assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
     again = [i for i in bpy.context.scene.objects if i.get("ga_node") == node.name]
     assert sorted(tuple(np.round(i.matrix_world.translation, 3)) for i in again) == sorted(places[:14])
+
+
+def test_walls_are_drawn_on_where_the_mouse_goes():
+    corners, _ = houses()
+    drawing = bridge("rectangle_drawing")
+    sites = drawing.sites_to_draw_on(bpy.context)
+    (x0, y0, _), (_, y1, _) = box_of(0, corners)
+    eye = np.array([x0 + 1.0, y0 - 8.0, 2.5])
+    sketch = drawing.Sketch(sites)
+    assert sketch.press(eye, np.array([x0 + 1.5, y0, 1.0]) - eye)
+    sketch.move(eye, np.array([x0 + 2.7, y0, 2.2]) - eye)
+    assert sketch.release()
+    ((start, end, _),) = sketch.done
+    assert start == pytest.approx((x0 + 1.5, y0, 1.0), abs=1e-4)
+    assert end == pytest.approx((x0 + 2.7, y0, 2.2), abs=1e-4)
+    # Through the wall nothing is met but the wall; beside the house, the parcel.
+    face_, point = drawing.face_in_sight(sites, eye, np.array([x0 + 3.0, y1, 1.0]) - eye)
+    assert face_.polygon.label == "wall" and point[1] == pytest.approx(y0, abs=1e-6)
+    face_, point = drawing.face_in_sight(sites, (x0 - 1.0, y0 - 1.0, 5.0), (0.0, 0.0, -1.0))
+    assert face_.polygon.label == "parcel"
+    face_, point = drawing.face_in_sight(sites, (x0 + 1.0, y0 + 1.0, 9.0), (0.0, 0.0, -1.0))
+    assert face_.polygon.label == "flat roof" and point[2] == pytest.approx(HEIGHT)
+
+
+def test_the_command_and_the_batch_program_build_what_the_sidebar_builds(tmp_path):
+    corners, _ = houses()
+    windows(corners)
+    built = sum(volume_of(item) for item in solids("house"))
+    (around,) = bridge("evaluating").read_surroundings(bpy.context)
+    tree, plan = tmp_path / "house.json", tmp_path / "parcels.geojson"
+    engine().write_scene(around.ground.scene, plan)
+    bpy.ops.geoanalogy.export_tree(EXEC, filepath=str(tree))
+    assert bridge("command")._commands
+    arguments = ["--quiet", "apply", "--tree", str(tree), "--parcels", str(plan), "--output"]
+    assert engine("command_line").main([*arguments, str(tmp_path / "command.blend")]) == 0
+    done = run(batch_command(*arguments, str(tmp_path / "batch.blend")), tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    volumes = []
+    for name in ("command.blend", "batch.blend"):
+        bpy.ops.wm.open_mainfile(filepath=str(tmp_path / name))
+        bpy.context.view_layer.update()
+        masses = [o for o in bpy.data.objects if o.type == "MESH" and o.get("ga_label") == "house"]
+        volumes.append(sum(volume_of(o) for o in masses))
+    assert volumes == pytest.approx([built, built], rel=1e-5)
