@@ -6,6 +6,7 @@ So the similarity is a product of factors, each from 0 to 1, of which the TPS is
 the lines.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,10 @@ import shapely
 from numpy.typing import NDArray
 
 from ..geometry.contours import Complex, Floats, even
+from .alignment import GAIN, Alignment
+from .chains import Chain, Chains
 from .fitting import Fit, Fitter
+from .marks import Marked
 from .query import Query
 from .transformation import gradient
 
@@ -23,12 +27,33 @@ NEAR, ASKEW = 0.03, 0.4
 STRAIN = 0.45
 #: Mean squared difference of turn (square radians), and distance, at which the agreement is 1/2.
 TURN, DISTANCE = 0.012, 0.006
-#: Exponents of the factors: how much each says about a match being the right one.
-EXPONENTS = {"coverage": 0.45, "smooth": 0.6, "course": 0.8, "near": 0.25, "own": 0.2, "whole": 0.7}
-#: Coverage below which a match is doubtful however well the little agrees: short stretches are alike everywhere.
-SCANT = 0.4
-#: Factor of mirrored targets: between two that are alike in all else, the one that is not mirrored comes first.
-MIRRORED = 0.85
+#: Exponents of the factors: how much each says about a match being the right one (logistic regression on bent shapes
+#: among clutter, `benchmarks/regions_calibration.py`), over the one number that makes similarities spread over 0 to 1.
+EXPONENTS = {
+    "coverage": 0.11,
+    "smooth": 0.76,
+    "course": 0.34,
+    "near": 0.53,
+    "own": 0.34,
+    "whole": 1.28,
+    "chained": 1.96,
+    "corners": 1.44,
+    "aligned": 0.37,
+    "turns": 1.55,
+    "unmirrored": 1.5,
+}
+SPREAD = 5.0
+#: Evidence of corners beyond which more of it says no more: three or four times out of a million by chance.
+ENOUGH = 15.0
+#: Share of what a perfect alignment, or chain, is worth that is as good as perfect: bent lines are a little longer here
+#: and there, and corners of smooth lines fall a little differently.
+AS_GOOD = 0.8
+#: Mean distance, in extents of the query at the target's scale, at which a chain or alignment agrees with a fit to 0.6.
+AGREEING = 0.06
+#: Points of a chain or an alignment that are looked at, and chains that are, best first.
+LOOKED_AT, MOST_CHAINS = 8, 500
+#: Root of the product of the sums of squared turns (square radians) below which two lines are evenly bent, and alike.
+LEAST_SPREAD = 1e-3
 #: Least value of a factor, so that one alone never says everything.
 FLOOR = 0.02
 
@@ -51,6 +76,16 @@ class Evidence:
         Share of the target's lines, inside the image of the region, that are counterparts.
     whole : float
         Share of the lines with counterparts that the counterparts take up: a target is rarely a small part of a line.
+    chained : float
+        Evidence of the chains of chords that agree with the match, as a share of what an identical copy would have.
+    corners : float
+        The same, where more than ENOUGH evidence counts as all: 1 / e for none.
+    aligned : float
+        Reward of the elastic alignment that agrees with the match, as a share of that of a perfect one: 1 / e for none.
+    turns : float
+        Correlation of the turns of the query's lines with those of their counterparts, from -1 to 1 as 0 to 1.
+    unmirrored : float
+        1, and 1 / e where the target is a mirror image: between two that are alike in all else, that comes second.
     mirrored : bool
         Whether the target is a mirror image.
     """
@@ -61,15 +96,18 @@ class Evidence:
     near: float
     own: float
     whole: float
+    chained: float
+    corners: float
+    aligned: float
+    turns: float
+    unmirrored: float
     mirrored: bool
 
     @property
     def similarity(self) -> float:
         """The factors' weighted product, 0 to 1."""
-        product = min(1.0, self.coverage / SCANT) * (MIRRORED if self.mirrored else 1.0)
-        for name, exponent in EXPONENTS.items():
-            product *= max(getattr(self, name), FLOOR) ** exponent
-        return float(product)
+        total = sum(weight * np.log(max(getattr(self, name), FLOOR)) for name, weight in EXPONENTS.items())
+        return float(np.exp(total / SPREAD))
 
 
 def support(fit: Fit) -> Floats:
@@ -104,7 +142,53 @@ def node_support(fitter: Fitter, found: Floats) -> Floats:
     return (weight @ found) / weight.sum(1)
 
 
-def evidence(fitter: Fitter, query: Query, fit: Fit, joint_tolerance: float = 0.0) -> Evidence:
+def agreement(fitter: Fitter, fits: list[Fit], chains: Chains, alignments: list[Alignment]) -> tuple[Floats, Floats]:
+    """What the chains and alignments that agree with each fit are worth.
+
+    Parameters
+    ----------
+    fitter : Fitter
+    fits : list[Fit]
+    chains : Chains
+    alignments : list[Alignment]
+
+    Returns
+    -------
+    chained : (h,) float
+        Scores of the best chain of each grade and stretch, averaged over the grades and added over the stretches.
+    aligned : (h,) float
+        Score of the best alignment.
+    """
+    chained = np.zeros((len(fits), *chains.most.shape))
+    some = chains.found[:MOST_CHAINS]
+    share = _agreeing(fitter, fits, some)
+    for k, chain in enumerate(some):
+        here = chained[:, chain.grade, chain.run]
+        np.maximum(here, chain.score * share[:, k], out=here)
+    scores = np.array([a.score for a in alignments])
+    aligned = (_agreeing(fitter, fits, alignments) * scores).max(1, initial=0.0)
+    return chained.sum(2).mean(1), aligned
+
+
+def _agreeing(fitter: Fitter, fits: list[Fit], some: Sequence[Chain | Alignment]) -> Floats:
+    """How far fits agree with chains or alignments, (h, k) from 0 to 1."""
+    if not some or not fits:
+        return np.zeros((len(fits), len(some)))
+    picked = [np.linspace(0, len(c.source) - 1, LOOKED_AT).round().astype(int) for c in some]
+    source = np.concatenate([c.source[at] for c, at in zip(some, picked, strict=True)])
+    goal = np.concatenate([c.target[at] for c, at in zip(some, picked, strict=True)])
+    rows = fitter.nodes.rows(source)
+    unknowns = np.array([np.concatenate([f.function.position, f.function.factor]) for f in fits])
+    unit = np.abs(unknowns[:, len(fitter.nodes.at) :]).mean(1) * fitter.size
+    gap = np.abs(unknowns @ rows.T - goal).reshape(len(fits), len(some), LOOKED_AT).mean(2)
+    share = np.exp(-0.5 * (gap / (AGREEING * unit[:, None])) ** 2)
+    mirrored = np.array([f.function.mirrored for f in fits])
+    return np.where(mirrored[:, None] == np.array([c.mirrored for c in some]), share, 0.0)
+
+
+def evidence(
+    fitter: Fitter, query: Query, fit: Fit, chained: tuple[float, float], aligned: float, joint_tolerance: float = 0.0
+) -> Evidence:
     """Measure a fit.
 
     Parameters
@@ -112,6 +196,10 @@ def evidence(fitter: Fitter, query: Query, fit: Fit, joint_tolerance: float = 0.
     fitter : Fitter
     query : Query
     fit : Fit
+    chained : (float, float)
+        Score of the chains that agree with it, and the one that an identical copy would have.
+    aligned : float
+        Score of the alignment that agrees with it.
     joint_tolerance : float
         Share, from 0 to 1, of half of the pairs of nodes whose gradients are forgiven, largest first.
 
@@ -127,18 +215,61 @@ def evidence(fitter: Fitter, query: Query, fit: Fit, joint_tolerance: float = 0.
     """
     found = support(fit)
     at = fit.counterpart[fit.counterpart >= 0]
+    mirrored = fit.function.mirrored
+    worth, most = chained
+    enough = min(ENOUGH, most)
+    factors = {
+        "chained": min(1.0, (max(worth, 0.0) + 1.0) / (AS_GOOD * (most + 1.0))),
+        "corners": float(np.exp(min(1.0, worth / enough) - 1.0)) if enough > 0.0 else 1.0,
+        "aligned": float(np.exp(min(1.0, aligned / (AS_GOOD * GAIN)) - 1.0)),
+        "unmirrored": float(np.exp(-1.0)) if mirrored else 1.0,
+    }
     if not len(at):
-        return Evidence(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, fit.function.mirrored)
+        return Evidence(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, turns=0.0, mirrored=mirrored, **factors)
     distance = float((fit.distance[fit.counterpart >= 0] ** 2).mean())
     own, whole = _explained(fitter, query, fit, at)
+    course, turns = _course(fitter, fit)
     return Evidence(
         float(found.mean()),
         _smooth(fitter, fit, found, joint_tolerance),
-        1.0 / (1.0 + _course(fitter, fit) / TURN),
+        1.0 / (1.0 + course / TURN),
         1.0 / (1.0 + distance / DISTANCE**2),
         own,
         whole,
-        fit.function.mirrored,
+        turns=turns,
+        mirrored=mirrored,
+        **factors,
+    )
+
+
+def marked_evidence(fitter: Fitter, marked: Marked, joint_tolerance: float = 0.0) -> Evidence:
+    """Measure a fit of marks: what only lines have, their courses, turns and corners, counts as met.
+
+    Parameters
+    ----------
+    fitter : Fitter
+    marked : Marked
+    joint_tolerance : float
+        As for `evidence`.
+
+    Returns
+    -------
+    Evidence
+    """
+    fit = marked.fit
+    return Evidence(
+        coverage=marked.coverage,
+        smooth=_smooth(fitter, fit, support(fit), joint_tolerance),
+        course=1.0,
+        near=1.0 / (1.0 + (marked.near / NEAR) ** 2),
+        own=marked.own,
+        whole=marked.coverage,
+        chained=marked.coverage,
+        corners=1.0,
+        aligned=1.0,
+        turns=1.0,
+        unmirrored=float(np.exp(-1.0)) if fit.function.mirrored else 1.0,
+        mirrored=fit.function.mirrored,
     )
 
 
@@ -157,20 +288,29 @@ def _smooth(fitter: Fitter, fit: Fit, found: Floats, joint_tolerance: float) -> 
     return float(1.0 / (1.0 + (weight * square).sum() / weight.sum()))
 
 
-def _course(fitter: Fitter, fit: Fit) -> float:
-    """Mean squared difference between the turns of the images of the query's lines and of the lines there."""
+def _course(fitter: Fitter, fit: Fit) -> tuple[float, float]:
+    """Agreement of the turns of the query's lines with those of their counterparts.
+
+    The mean squared difference between the turns of the images of the query's lines and of the lines there, and the
+    correlation of the turns themselves, from -1 to 1 as 0 to 1.
+    """
     s, t = fitter.samples, fitter.target
     before = np.roll(fit.counterpart, 1)
     both = (s.step > 0.0) & (fit.counterpart >= 0) & (before >= 0)
     both[both] = t.stretch[fit.counterpart[both]] == t.stretch[before[both]]
     if not both.any():
-        return 1.0
+        return 1.0, 0.5
+    sense = -1.0 if fit.function.mirrored else 1.0
     unknowns = np.concatenate([fit.function.position, fit.function.factor])
     way = np.angle(fitter.ahead @ unknowns - fitter.rows @ unknowns)
-    turn = (-1.0 if fit.function.mirrored else 1.0) * (way - np.roll(way, 1))[both]
-    miss = t.heading[fit.counterpart[both]] - t.heading[before[both]] - turn
+    turned = t.heading[fit.counterpart[both]] - t.heading[before[both]]
+    miss = turned - sense * (way - np.roll(way, 1))[both]
     miss = (miss + np.pi / 2) % np.pi - np.pi / 2
-    return float((miss**2).mean())
+    own = sense * s.turn[both]
+    own, turned = own - own.mean(), turned - turned.mean()
+    spread = float(np.sqrt((own**2).sum() * (turned**2).sum()))
+    alike = float((own * turned).sum()) / spread if spread > LEAST_SPREAD else 1.0
+    return float((miss**2).mean()), (1.0 + alike) / 2.0
 
 
 def _explained(fitter: Fitter, query: Query, fit: Fit, at: NDArray[np.intp]) -> tuple[float, float]:

@@ -17,23 +17,43 @@ from .courses import Course, lengths
 from .query import Query
 from .transformation import Nodes, TransformationFunction, smoothness
 
-#: Samples of the query's lines.
-SAMPLES = 96
+#: Samples of the query's lines, and stretches, longest first, that get any.
+SAMPLES, MOST_RUNS = 96, 40
 #: Candidate counterparts of a sample: so many to each side of the nearest point of a line.
 BAND = 7
 #: Stiffness of the functions, round by round: (strain, bend) weights beside a mean squared distance of 1.
 ROUNDS = ((0.3, 0.3), (0.1, 0.2), (0.03, 0.1), (0.02, 0.1), (0.01, 0.1), (0.01, 0.1))
-#: After so many rounds only so many candidates of each place, those with most counterparts, are fitted on.
-FIRST_ROUNDS, FINALISTS = 2, 4
+#: After so many rounds only so many candidates of each place, and so many in all, are fitted on: those with most
+#: counterparts.
+FIRST_ROUNDS, FINALISTS, MOST_FINALISTS = 2, 4, 24
 #: Candidates whose images' centres are nearer than this, in extents of the images, are of one place.
 PLACE = 0.35
 #: Distance, in extents of the query at the target's scale, at which a counterpart is no evidence any more.
 FAR = 0.05
-#: Weights of the Viterbi costs: distance (in units of FAR), stretch between neighbours, turn between neighbours.
-DISTANCE, STRETCH, TURN = 1.0, 0.35, 1.5
-#: Cost of a sample without counterpart, of stepping to another line (and the squared distance, in units of FAR, by
-#: which the step misses the one of the image), and of any step at most.
-MISSING, CHANGE, MOST_COST = 0.4, 0.15, 4.0
+
+
+@dataclass(frozen=True)
+class Costs:
+    """Costs of the Viterbi search for counterparts.
+
+    Attributes
+    ----------
+    stretch, turn : float
+        Of stretch and of turn between neighbours, beside a squared distance in units of FAR.
+    missing : float
+        Of a sample without counterpart.
+    """
+
+    stretch: float
+    turn: float
+    missing: float
+
+
+#: While fitting, lines may end where they were cut; what a fit is worth is measured with gaps that cost more.
+FITTING, MEASURING = Costs(0.35, 1.5, 0.2), Costs(0.35, 1.5, 0.4)
+#: Cost of stepping to another line (and the squared distance, in units of FAR, by which the step misses the one of the
+#: image), and of any step at most.
+CHANGE, MOST_COST = 0.15, 4.0
 
 
 @dataclass(frozen=True)
@@ -58,13 +78,11 @@ class Samples:
 
     @classmethod
     def of(cls, contours: Contours, query: Query) -> "Samples":
-        """Spread SAMPLES over all lines of the query by length."""
+        """Spread SAMPLES over the lines of the query by length."""
         length = lengths(contours, query.runs)
         parts: list[tuple[Complex, Floats, Floats, Floats]] = []
-        for run, own in zip(query.runs, length, strict=True):
-            count = round(SAMPLES * own / length.sum())
-            if count < 2:
-                continue
+        for run, own in zip(query.runs[:MOST_RUNS], length, strict=False):
+            count = max(2, round(SAMPLES * own / length.sum()))
             course = Course.along(contours, run, count)
             heading = course.heading
             step = np.full(count, own / (count if run.closed else count - 1))
@@ -92,6 +110,9 @@ class Target:
         self.count = np.diff(np.append(begin, len(line)))
         whole = self.count == np.diff(contours.first)[line[begin]]
         self.closed = contours.closed[line[begin]] & whole
+        # number of a point along its stretch, and of points once round it
+        self.place = np.arange(len(line)) - begin[self.stretch]
+        self.around = np.where(self.closed, self.count, 10**9)[self.stretch]
         self.tree = cKDTree(np.stack([self.points.real, self.points.imag], 1))
 
     def walk(self, start: NDArray[np.intp], offset: NDArray[np.intp]) -> NDArray[np.intp]:
@@ -101,12 +122,6 @@ class Target:
         n = self.count[k]
         out = self.begin[k] + at % n
         return np.where(self.closed[k] | ((at >= 0) & (at < n)), out, -1)
-
-    def between(self, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
-        """Steps along the line from one point to another of the same line, the shorter way round in a closed one."""
-        k = self.stretch[first]
-        n = np.where(self.closed[k], self.count[k], 10**9)
-        return (second - first + n / 2.0) % n - n / 2.0
 
 
 @dataclass(frozen=True)
@@ -147,7 +162,7 @@ class Fitter:
     ) -> Complex:
         """Unknowns (2m,) of the smoothest function through given correspondences (images conjugated where mirrored)."""
         rows = self.nodes.rows(source)
-        return self._solve(rows, image[None], weight[None], stiffness)[0]
+        return self.solve(rows, image[None], weight[None], stiffness)[0]
 
     def through(self, node: NDArray[np.intp], image: Complex, factor: Complex, weight: Floats) -> Complex:
         """Unknowns (2m,) of the smoothest function near given similarities at some of the nodes."""
@@ -157,9 +172,9 @@ class Fitter:
         rows[at, node] = 1.0
         rows[at + len(node), m + node] = self.nodes.spacing
         goal = np.concatenate([image, factor * self.nodes.spacing])
-        return self._solve(rows, goal[None], np.concatenate([weight, 0.5 * weight])[None], (0.1, 0.1))[0]
+        return self.solve(rows, goal[None], np.concatenate([weight, 0.5 * weight])[None], (0.1, 0.1))[0]
 
-    def _solve(self, rows: Complex, image: Complex, weight: Floats, stiffness: tuple[float, float]) -> Complex:
+    def solve(self, rows: Complex, image: Complex, weight: Floats, stiffness: tuple[float, float]) -> Complex:
         """Weighted least squares with smoothness, for several candidates: (h, s) images and weights to (h, 2m)."""
         share = weight / np.maximum(weight.sum(1, keepdims=True), 1e-12)
         left = (rows.conj().T[None] * share[:, None, :]) @ rows
@@ -179,21 +194,33 @@ class Fitter:
             Candidates of each place that are fitted to the end.
         """
         for number, stiffness in enumerate(ROUNDS):
-            _, image, weight, _, _ = self.counterparts(unknowns, mirrored)
+            _, image, weight, _, _ = self.counterparts(unknowns, mirrored, FITTING)
             if number == FIRST_ROUNDS:
                 order = np.argsort(-weight.mean(1), kind="stable")
-                best = order[self.apart(unknowns[order], mirrored[order], finalists)]
+                best = order[self.apart(unknowns[order], mirrored[order], finalists, MOST_FINALISTS)]
                 unknowns, mirrored, image, weight = unknowns[best], mirrored[best], image[best], weight[best]
-            unknowns = self._solve(self.rows, image, weight + 1e-6, stiffness)
-        at, _, _, distance, tilt = self.counterparts(unknowns, mirrored)
+            unknowns = self.solve(self.rows, image, weight + 1e-6, stiffness)
+        at, _, _, distance, tilt = self.counterparts(unknowns, mirrored, MEASURING)
         m = len(self.nodes.at)
         return [
             Fit(TransformationFunction(self.nodes, u[:m], u[m:], bool(flip)), a, d, t)
             for u, flip, a, d, t in zip(unknowns, mirrored, at, distance, tilt, strict=True)
         ]
 
-    def apart(self, unknowns: Complex, mirrored: NDArray[np.bool_], each: int) -> NDArray[np.intp]:
-        """Indices of candidates, given best first, without those of a place that already has `each` better ones.
+    def promise(self, unknowns: Complex, mirrored: NDArray[np.bool_]) -> Floats:
+        """How many of some samples land near lines that run along their images, (h,): what is worth fitting."""
+        image = unknowns @ self.rows[::3].T
+        way = np.angle(unknowns @ self.ahead[::3].T - image)
+        seen = np.where(mirrored[:, None], np.conj(image), image)
+        way = np.where(mirrored[:, None], -way, way)
+        gap, near = self.target.tree.query(np.stack([seen.real, seen.imag], -1))
+        m = len(self.nodes.at)
+        unit = np.maximum(np.abs(unknowns[:, m:]).mean(1) * self.size, 1e-12)[:, None]
+        along = np.cos(self.target.heading[near] - way) ** 2
+        return np.asarray((np.exp(-0.5 * (gap / (FAR * unit)) ** 2) * (0.5 + 0.5 * along)).mean(1), dtype=np.float64)
+
+    def apart(self, unknowns: Complex, mirrored: NDArray[np.bool_], each: int, most: int) -> NDArray[np.intp]:
+        """Indices of `most` candidates, given best first: of every place the first `each`, then the best of the rest.
 
         A place with many candidates (a circle fits in every direction) would otherwise crowd out all others.
         """
@@ -202,14 +229,14 @@ class Fitter:
         centre = np.where(mirrored, np.conj(centre), centre)
         extent = self.size * np.abs(unknowns[:, m:]).mean(1)
         kept: list[int] = []
+        left: list[int] = []
         for i in range(len(unknowns)):
             reach = PLACE * np.maximum(extent[i], extent[kept])
-            if (np.abs(centre[kept] - centre[i]) < reach).sum() < each:
-                kept.append(i)
-        return np.array(kept, np.intp)
+            (kept if (np.abs(centre[kept] - centre[i]) < reach).sum() < each else left).append(i)
+        return np.array(sorted([*kept, *left][:most]), np.intp)
 
     def counterparts(
-        self, unknowns: Complex, mirrored: NDArray[np.bool_]
+        self, unknowns: Complex, mirrored: NDArray[np.bool_], costs: Costs
     ) -> tuple[NDArray[np.intp], Complex, Floats, Floats, Floats]:
         """Counterparts of the samples on the lines near their images, by Viterbi along the query's lines."""
         s, target = self.samples, self.target
@@ -233,9 +260,9 @@ class Fitter:
         distance = np.abs(point - seen[:, :, None]) / unit[:, :, None]
         angle = target.heading[at] - seen_way[:, :, None]
         tilt = np.abs(np.arcsin(np.clip(np.sin(angle), -1, 1)))
-        cost = DISTANCE * (distance / FAR) ** 2 + np.sin(angle) ** 2 * 0.5
+        cost = (distance / FAR) ** 2 + np.sin(angle) ** 2 * 0.5
         cost[at < 0] = np.inf
-        chosen = self._viterbi(cost, at, point, seen, np.sign(np.cos(angle)), scale, mirrored)
+        chosen = self._viterbi(cost, at, point, seen, np.sign(np.cos(angle)), scale, mirrored, costs)
         h, k = np.indices(chosen.shape)
         here = at[h, k, chosen]
         away, skewed = distance[h, k, chosen], tilt[h, k, chosen]
@@ -255,42 +282,53 @@ class Fitter:
         side: Floats,
         scale: Floats,
         mirrored: NDArray[np.bool_],
+        costs: Costs,
     ) -> NDArray[np.intp]:
         """Index of the chosen candidate of every sample (h, s); -1: none."""
         s, target = self.samples, self.target
         count, length, width = cost.shape
-        missing = float(MISSING)
-        total = np.concatenate([np.minimum(cost[:, 0], 1e6), np.full((count, 1), missing)], 1)
-        back = np.zeros((length, count, width + 1), np.int16)
-        sign = np.where(mirrored, -1.0, 1.0)
-        ahead = np.diff(seen, axis=1, prepend=seen[:, :1])
-        unit = scale * self.size
+        single = np.float32
+        missing = single(costs.missing)
+        cost = np.minimum(cost, 1e6).astype(single)
+        total = np.concatenate([cost[:, 0], np.full((count, 1), missing)], 1)
+        back = np.zeros((length, count, width + 1), np.int8)
+        sign = np.where(mirrored, -1.0, 1.0).astype(single)[:, None, None]
+        unit = (FAR * scale * self.size).astype(single)[:, None, None]
+        # what each candidate says, once; the steps only take differences
+        stretch_of, heading = target.stretch[at], target.heading[at].astype(single)
+        place, side = target.place[at].astype(single), side.astype(single)
+        spacing, around = target.spacing[at].astype(single), target.around[at].astype(single)
+        away = (point - seen[:, :, None]).astype(np.complex64)
+        full = np.empty((count, width + 1, width + 1), single)
+        full[:, -1, :] = full[:, :, -1] = 0.3
+        full[:, -1, -1] = 0.0
         for i in range(1, length):
-            before, here = at[:, i - 1], at[:, i]
+            before, here = (slice(None), i - 1, slice(None), None), (slice(None), i, None, slice(None))
+            move = full[:, :-1, :-1]
             if s.step[i] == 0.0:
-                move = np.zeros((count, width, width))
+                move[...] = 0.0
             else:
-                left, right = target.stretch[before], target.stretch[here]
-                walk = target.between(before[:, :, None], here[:, None, :])
-                arc = walk * target.spacing[before][:, :, None] * side[:, i][:, None, :]
-                stretch = np.log(np.maximum(arc / (s.step[i] * scale)[:, None, None], 0.03))
-                turn = target.heading[here][:, None, :] - target.heading[before][:, :, None]
-                turn = (turn + np.pi) % (2 * np.pi) - np.pi
-                turn = np.where(side[:, i][:, None, :] * side[:, i - 1][:, :, None] > 0, turn, 0.0)
-                miss = sign[:, None, None] * s.turn[i] - turn
-                move = STRETCH * stretch**2 + TURN * np.minimum(miss**2, 2.0)
-                jump = np.abs(point[:, i][:, None, :] - point[:, i - 1][:, :, None] - ahead[:, i][:, None, None])
-                jump = np.minimum(CHANGE + (jump / (FAR * unit[:, None, None])) ** 2, MOST_COST)
-                move = np.where(left[:, :, None] == right[:, None, :], np.minimum(move, MOST_COST), jump)
-            full = np.empty((count, width + 1, width + 1))
-            full[:, :-1, :-1] = move
-            full[:, -1, :] = 0.3
-            full[:, :, -1] = 0.3
-            full[:, -1, -1] = 0.0
-            full += total[:, :, None]
-            back[i] = full.argmin(1)
-            total = np.take_along_axis(full, back[i][:, None, :].astype(int), 1)[:, 0]
-            total[:, :-1] += np.minimum(cost[:, i], 1e6)
+                walk = place[here] - place[before]
+                walk -= around[before] * np.round(walk / around[before])
+                walk *= spacing[before] * side[here] / (s.step[i] * scale).astype(single)[:, None, None]
+                stretch = np.log(np.maximum(walk, single(0.03)))
+                turn = heading[here] - heading[before]
+                turn -= single(2 * np.pi) * np.round(turn / single(2 * np.pi))
+                turn *= side[here] * side[before] > 0
+                miss = sign * single(s.turn[i]) - turn
+                np.minimum(
+                    single(costs.stretch) * stretch**2 + single(costs.turn) * np.minimum(miss**2, single(2.0)),
+                    single(MOST_COST),
+                    out=move,
+                )
+                other = stretch_of[before] != stretch_of[here]
+                if other.any():
+                    jump = np.abs(away[here] - away[before]) / unit
+                    np.copyto(move, np.minimum(single(CHANGE) + jump**2, single(MOST_COST)), where=other)
+            step = full + total[:, :, None]
+            back[i] = step.argmin(1)
+            total = step.min(1)
+            total[:, :-1] += cost[:, i]
             total[:, -1] += missing
         chosen = np.empty((count, length), int)
         chosen[:, -1] = total.argmin(1)

@@ -30,6 +30,8 @@ STRAIN = 0.35
 LEAST_SIMILARITY = np.exp(-4.5)
 #: Merging stops at this share of the largest linkage weight (section 3.5).
 STOP = 0.01
+#: Pairs of sets whose linkage is computed at once.
+MOST_AT_ONCE = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -66,6 +68,9 @@ def similarities(nodes: Nodes, refined: Refined, joint_tolerance: float = 0.0) -
     """
     order = np.argsort(refined.node, kind="stable")
     first = np.searchsorted(refined.node[order], np.arange(len(nodes.at) + 1))
+    turn = np.log(refined.factor)
+    x, y = refined.image.real, refined.image.imag
+    reach = np.abs(refined.factor) ** 2
     rows, columns, values = [], [], []
     for i, j in zip(nodes.first, nodes.second, strict=True):
         if i >= j:
@@ -74,22 +79,28 @@ def similarities(nodes: Nodes, refined: Refined, joint_tolerance: float = 0.0) -
         if not len(left) or not len(right):
             continue
         step = nodes.at[j] - nodes.at[i]
-        unit = nodes.spacing / abs(step)
-        move = refined.image[right][None] - refined.image[left][:, None]
-        a, b = refined.factor[left][:, None], refined.factor[right][None]
-        ratio = np.log(b / a)
-        turn = ((ratio.real / SCALE) ** 2 + (ratio.imag / ROTATION) ** 2) * unit**2
-        forth, back = np.abs(move - a * step) / np.abs(a * step), np.abs(move - b * step) / np.abs(b * step)
-        strain = (np.maximum(forth, back) / STRAIN) ** 2
-        alike = np.exp(-0.5 * (strain + turn))
+        # squared strains: where each correspondence takes the other's query point, beside where the other takes it
+        ahead = refined.image[left] + refined.factor[left] * step
+        behind = refined.image[right] - refined.factor[right] * step
+        forth = ((x[right] - ahead.real[:, None]) ** 2 + (y[right] - ahead.imag[:, None]) ** 2) / reach[left][:, None]
+        back = ((behind.real - x[left][:, None]) ** 2 + (behind.imag - y[left][:, None]) ** 2) / reach[right]
+        both = np.minimum(forth, back) if joint_tolerance > 0.0 else np.maximum(forth, back)
+        p, q = np.nonzero(both <= -2.0 * np.log(LEAST_SIMILARITY) * (STRAIN * abs(step)) ** 2)
+        same = refined.mirrored[left[p]] == refined.mirrored[right[q]]
+        p, q = p[same], q[same]
+        unit = 1.0 / (STRAIN * abs(step)) ** 2
+        forth, back = forth[p, q] * unit, back[p, q] * unit
+        ratio = turn[right[q]] - turn[left[p]]
+        wrapped = (ratio.imag + np.pi) % (2.0 * np.pi) - np.pi
+        change = ((ratio.real / SCALE) ** 2 + (wrapped / ROTATION) ** 2) * (nodes.spacing / abs(step)) ** 2
+        alike = np.exp(-0.5 * (np.maximum(forth, back) + change))
         if joint_tolerance > 0.0:
-            eased = np.exp(-0.5 * (np.minimum(forth, back) / STRAIN) ** 2)
+            eased = np.exp(-0.5 * np.minimum(forth, back))
             alike = alike + joint_tolerance * (eased - np.minimum(eased, alike))
-        alike[refined.mirrored[left][:, None] != refined.mirrored[right][None]] = 0.0
-        p, q = np.nonzero(alike > LEAST_SIMILARITY)
-        rows.append(left[p])
-        columns.append(right[q])
-        values.append(alike[p, q])
+        good = alike > LEAST_SIMILARITY
+        rows.append(left[p[good]])
+        columns.append(right[q[good]])
+        values.append(alike[good])
     n = len(refined)
     if not rows:
         return csr_array((n, n))
@@ -141,9 +152,10 @@ def clusters(nodes: Nodes, refined: Refined, alike: csr_array, least: int) -> St
         local = weight[members][:, members].toarray()
         sets = yield from _merge(local, refined.node[members], near, STOP * largest, done / max(len(refined), 1))
         for s in sets:
+            if len(s) < least or len(np.unique(refined.node[members[s]])) < least:
+                continue
             cluster = _cluster(members[s], nodes, refined, alike)
-            if len(cluster.members) >= least:
-                found.append(cluster)
+            found.append(cluster)
     found.sort(key=lambda c: -c.tps)
     return found
 
@@ -156,25 +168,31 @@ def _merge(
     count = np.zeros((n, m), np.float32)
     count[np.arange(n), node] = 1.0
     reach = count @ near.astype(np.float32)
-    has = count > 0
+    has = (count > 0).astype(np.float32)
     total = weight.astype(np.float32)
     np.fill_diagonal(total, 0.0)
     owner = np.arange(n)
     alive = np.ones(n, bool)
 
-    def linkage(i: int, others: NDArray[np.intp]) -> Floats:
-        both = (has[others] & has[i]).sum(1)
-        either = (has[others] | has[i]).sum(1)
-        norm = count[others] @ reach[i]
-        return total[i, others] / np.maximum(norm, 1e-9) * ((either - both) / either)
+    def linkage(some: NDArray[np.intp], others: NDArray[np.intp]) -> NDArray[np.float32]:
+        """Linkage weights (eq. 3.10) of some sets with others, (k, l)."""
+        norm = np.maximum(reach[some] @ count[others].T, 1e-9)
+        both = has[some] @ has[others].T
+        either = has[some].sum(1)[:, None] + has[others].sum(1) - both
+        between = total[some[0], others][None] if len(some) == 1 else total[some][:, others]
+        return np.asarray(between / norm * ((either - both) / either), dtype=np.float32)
 
     best, partner = np.zeros(n, np.float32), np.zeros(n, int)
-    for i in range(n):
-        others = np.flatnonzero(total[i])
-        if len(others):
-            value = linkage(i, others)
-            k = int(value.argmax())
-            best[i], partner[i] = value[k], others[k]
+
+    def anew(some: NDArray[np.intp]) -> None:
+        """Find the best partner of some sets."""
+        there = np.flatnonzero(alive)
+        for part in np.array_split(some, 1 + len(some) * len(there) // MOST_AT_ONCE):
+            value = linkage(part, there)
+            which = value.argmax(1)
+            best[part], partner[part] = value[np.arange(len(part)), which], there[which]
+
+    anew(np.arange(n))
     merged = 0
     while True:
         i = int(best.argmax())
@@ -187,19 +205,20 @@ def _merge(
         total[i, i] = 0.0
         count[i] += count[j]
         reach[i] += reach[j]
-        has[i] |= has[j]
+        has[i] = np.maximum(has[i], has[j])
         owner[owner == j] = i
         alive[j], best[j] = False, 0.0
+        best[i] = 0.0
         others = np.flatnonzero(total[i])
-        value = linkage(i, others) if len(others) else np.zeros(0, np.float32)
-        best[i], partner[i] = (value.max(), others[int(value.argmax())]) if len(others) else (0.0, 0)
-        better = value > best[others]
-        best[others[better]], partner[others[better]] = value[better], i
-        stale = others[~better & ((partner[others] == i) | (partner[others] == j))]
-        for k in stale:
-            rivals = np.flatnonzero(total[k])
-            again = linkage(int(k), rivals)
-            best[k], partner[k] = again.max(initial=0.0), rivals[int(again.argmax())] if len(rivals) else 0
+        if len(others):
+            value = linkage(np.array([i]), others)[0]
+            k = int(value.argmax())
+            best[i], partner[i] = value[k], others[k]
+            better = value > best[others]
+            best[others[better]], partner[others[better]] = value[better], i
+            stale = others[~better & ((partner[others] == i) | (partner[others] == j))]
+            if len(stale):
+                anew(stale)
         merged += 1
         if merged % 50 == 0:
             yield fraction, "linking correspondences"

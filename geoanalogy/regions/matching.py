@@ -6,37 +6,24 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..geometry.contours import Complex, Floats
+from ..geometry.contours import Floats
 from ..geometry.drawing import Drawing
 from ..progress import Progress, Stepper, run, within
-from .alignment import align
-from .correspondences import Correspondences, aligned, described
-from .evidence import Evidence, evidence, node_support, support
+from .candidates import candidates
+from .evidence import Evidence, agreement, evidence, marked_evidence, node_support, support
 from .fitting import FINALISTS, Fit, Fitter
-from .groups import laid_over
-from .linkage import branched, clusters, similarities
+from .marks import laid, of_marks
 from .options import RegionOptions
 from .query import Query
-from .refinement import Refined, refine
+from .refinement import Refined
 from .transformation import Nodes, TransformationFunction
 
-#: Aligned lines and sets of correspondences that become candidates at most.
-MOST_ALIGNED, MOST_CLUSTERS = 80, 60
-#: Candidates of each place, and of each source (aligned lines, sets of correspondences, groups of lines), that are
-#: fitted; and those of each place that are fitted to the end where branches may share a place.
-EACH_PLACE, EACH_SOURCE, BRANCH_FINALISTS = 6, 32, 16
-#: Share of the query points that a set of correspondences must have.
-LEAST_SHARE = 0.15
-#: Candidates whose query points land on average nearer than this, in extents of the query, are one.
-SAME = 0.04
+#: Candidates of each place that are fitted to the end where branches may share a place.
+BRANCH_FINALISTS = 16
 #: Two matches are one target where this share of the samples of the lesser has its counterparts on lines of the better.
 SHARED = 0.5
 #: The same for branches, which share the lines of their trunk.
 ALL_SHARED = 0.85
-
-
-#: Unknowns of a function to start from, and whether it is mirrored.
-Start = tuple[Complex, bool]
 
 
 class RegionMatch:
@@ -198,83 +185,43 @@ def matching(drawing: Drawing, query: ArrayLike, options: RegionOptions | None =
         return Matches([], options.threshold)
     nodes = Nodes.of(region.points, region.spacing, options.neighbourhood)
     fitter = Fitter(contours, region, nodes)
-    yield 0.1, "aligning lines"
-    alignments = align(contours, region.runs, region.rest, options.mirrored, MOST_ALIGNED)
-    yield 0.2, "comparing descriptors"
-    noisy = Correspondences.joined(
-        [described(drawing, region, options.mirrored, options.largest_scale), aligned(alignments)]
-    )
-    refined = yield from within(
-        refine(region.points, noisy, region.size, options.smoothing_radius * region.size), 0.3, 0.6
-    )
-    alike = similarities(nodes, refined, options.joint_tolerance)
-    least = max(3, round(LEAST_SHARE * len(region.points)))
-    sets = (yield from within(clusters(nodes, refined, alike, least), 0.6, 0.8))[:MOST_CLUSTERS]
-    aligned_starts = [
-        (fitter.start(a.source, a.target, np.ones(len(a.source)), (0.1, 0.1)), a.mirrored) for a in alignments
-    ]
-    if options.branches:
-        sets += [branched(s, nodes, refined, alike) for s in sets]
-    linked = [
-        (
-            fitter.through(refined.node[c], refined.image[c], refined.factor[c], refined.magnitude[c]),
-            bool(refined.mirrored[c[0]]),
-        )
-        for c in (s.members for s in sets)
-    ]
-    laid = [
-        (np.concatenate([a * nodes.at + b, np.full(len(nodes.at), a)]), flip)
-        for a, b, flip in laid_over(
-            fitter.target, fitter.samples.points, region.size, options.mirrored, options.largest_scale
-        )
-    ]
-    starts: list[Start] = []
-    for some in (aligned_starts, linked, laid):
-        starts += _chosen(_distinct(some, SAME * region.size), fitter)
-    starts = _distinct(starts, SAME * region.size)
-    yield 0.8, "fitting to the lines"
-    found: list[tuple[float, RegionMatch, Fit]] = []
-    if starts:
-        finalists = BRANCH_FINALISTS if options.branches else FINALISTS
-        fits = fitter.fit(np.array([u for u, _ in starts]), np.array([flip for _, flip in starts]), finalists)
-        for fit in fits:
-            e = evidence(fitter, region, fit, options.joint_tolerance)
-            match = RegionMatch(drawing, fit, e, node_support(fitter, support(fit)))
-            found.append((match.similarity, match, fit))
+    refined: Refined | None = None
+    fits: list[tuple[Fit, Evidence]] = []
+    if of_marks(contours, region):
+        yield 0.1, "laying marks over marks"
+        marked = laid(fitter, contours, region, options)
+        fits = [(m.fit, marked_evidence(fitter, m, options.joint_tolerance)) for m in marked]
+    else:
+        found = yield from within(candidates(drawing, region, nodes, fitter, options), 0.1, 0.8)
+        refined = found.refined
+        yield 0.8, "fitting to the lines"
+        if found.starts:
+            finalists = BRANCH_FINALISTS if options.branches else FINALISTS
+            unknowns = np.array([u for u, _ in found.starts])
+            fitted = fitter.fit(unknowns, np.array([flip for _, flip in found.starts]), finalists)
+            chained, along = agreement(fitter, fitted, found.chains, found.alignments)
+            most = float(found.chains.most.sum(1).mean())
+            fits = [
+                (fit, evidence(fitter, region, fit, (float(c), most), float(a), options.joint_tolerance))
+                for fit, c, a in zip(fitted, chained, along, strict=True)
+            ]
     yield 0.9, "choosing"
-    found.sort(key=lambda f: -f[0])
-    chosen = list(_separate(found, fitter, options.branches))
+    fits.sort(key=lambda f: -f[1].similarity)
+    kept = list(_separate(fits, fitter, options.branches))[: options.most]
+    chosen = [RegionMatch(drawing, fit, e, node_support(fitter, support(fit))) for fit, e in kept]
     best = chosen[0].similarity if chosen else 0.0
     least_shown = max(options.threshold, options.contrast * best)
-    return Matches(chosen[: options.most], least_shown, refined, nodes, region.size)
+    return Matches(chosen, least_shown, refined, nodes, region.size)
 
 
-def _chosen(starts: list[Start], fitter: Fitter) -> list[Start]:
-    """The first candidates of every place, best first."""
-    if not starts:
-        return []
-    apart = fitter.apart(np.array([u for u, _ in starts]), np.array([flip for _, flip in starts]), EACH_PLACE)
-    return [starts[i] for i in apart[:EACH_SOURCE]]
-
-
-def _distinct(starts: list[Start], near: float) -> list[Start]:
-    """The first of every group of candidates that map the query points to nearly the same places."""
-    kept: list[Start] = []
-    for u, flip in starts:
-        m = len(u) // 2
-        if all(flip != other or np.abs(u[:m] - v[:m]).mean() > near for v, other in kept):
-            kept.append((u, flip))
-    return kept
-
-
-def _separate(found: list[tuple[float, RegionMatch, Fit]], fitter: Fitter, branches: bool) -> Iterator[RegionMatch]:
+def _separate(found: list[tuple[Fit, Evidence]], fitter: Fitter, branches: bool) -> Iterator[tuple[Fit, Evidence]]:
     """The matches, best first, without those that repeat better ones.
 
     A match repeats where most of its counterparts lie on lines that better matches have taken; of branches, that may
     share a trunk with one and a twig with another, only where nearly all lie on the lines of one better match.
     """
     taken: list[NDArray[np.bool_]] = []
-    for _, match, fit in found:
+    for fit, measured in found:
         at = fit.counterpart[fit.counterpart >= 0]
         if not len(at):
             continue
@@ -284,7 +231,7 @@ def _separate(found: list[tuple[float, RegionMatch, Fit]], fitter: Fitter, branc
             repeats = bool(taken) and bool(np.any(taken, axis=0)[at].mean() > SHARED)
         if not repeats:
             taken.append(_lines_of(fit, fitter))
-            yield match
+            yield fit, measured
 
 
 def _lines_of(fit: Fit, fitter: Fitter) -> NDArray[np.bool_]:

@@ -45,7 +45,7 @@ class RegionOptions:
         Matches that are returned at most.
     """
 
-    threshold: float = 0.08
+    threshold: float = 0.34
     contrast: float = 0.75
     query_kind: str = "auto"
     query_points: int = 50

@@ -140,15 +140,16 @@ def modes(image: Complex, factor: Complex, weight: Floats, size: float) -> tuple
     Mean shift starts from the heaviest correspondences that are farther than SEED_GAP from each other; from the ones
     between them it would end in the same modes.
     """
-    space = np.stack([image.real, image.imag, np.log(np.abs(factor)) / SCALE, *_direction(factor)])
-    unit = 1.0 / (TRANSLATION * size * np.abs(factor))
+    space = np.stack([image.real, image.imag, np.log(np.abs(factor)) / SCALE, *_direction(factor)]).astype(np.float32)
+    unit = (1.0 / (TRANSLATION * size * np.abs(factor))).astype(np.float32)
     order = np.argsort(-weight, kind="stable")
+    apart = _squares(space, unit, space) > SEED_GAP**2
     alive = np.ones(len(order), bool)
     seeds: list[int] = []
     for i in order:
         if alive[i]:
             seeds.append(int(i))
-            alive &= _squares(space[:, i : i + 1], unit[i : i + 1], space)[0] > SEED_GAP**2
+            alive &= apart[i]
             if len(seeds) == MOST_MODES:
                 break
     at = space[:, seeds]
@@ -173,7 +174,7 @@ def _direction(factor: Complex) -> tuple[Floats, Floats]:
     return way.real, way.imag
 
 
-def _squares(at: Floats, unit: Floats, space: Floats) -> Floats:
+def _squares(at: NDArray, unit: NDArray, space: NDArray) -> NDArray:
     """Squared distances in the normalised transformation space from (5, k) points to (5, n) ones, (k, n).
 
     A unit of translation is one at the scale of the first point, `unit` (k,) its inverse.

@@ -1,0 +1,160 @@
+"""Candidates: transformation functions from which the fit to the lines starts.
+
+Four sources complement each other: chains of chords (corners), elastic alignments (courses), sets of refined
+correspondences linked by the transformation parameter similarity (sections 3.4 and 3.5: whatever the lines look like),
+and groups of lines that stand by themselves (many short strokes).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..geometry.contours import Complex
+from ..geometry.drawing import Drawing
+from ..progress import Stepper, within
+from .alignment import Alignment, align
+from .chains import Chains, chain
+from .correspondences import Correspondences, aligned, described
+from .fitting import Fitter
+from .groups import laid_over
+from .linkage import branched, clusters, similarities
+from .options import RegionOptions
+from .query import Query
+from .refinement import Refined, refine
+from .transformation import Nodes
+
+#: Alignments, chains and sets of correspondences that become candidates at most.
+MOST_ALIGNED, MOST_CHAINED, MOST_CLUSTERS = 60, 60, 40
+#: Candidates of each place, of each source, and in all, that are kept.
+EACH_PLACE, EACH_SOURCE, MOST_STARTS = 6, 32, 48
+#: Share of the query points that a set of correspondences must have.
+LEAST_SHARE = 0.15
+#: Candidates whose query points land on average nearer than this, in extents of the query, are one.
+SAME = 0.04
+
+#: Unknowns of a function to start from, and whether it is mirrored.
+Start = tuple[Complex, bool]
+
+
+@dataclass(frozen=True)
+class Candidates:
+    """What a fit starts from, and what it is compared with afterwards.
+
+    Attributes
+    ----------
+    starts : list of (complex array, bool)
+    alignments : list of Alignment
+    chains : Chains
+    refined : Refined
+        The refined correspondences.
+    """
+
+    starts: list[Start]
+    alignments: list[Alignment]
+    chains: Chains
+    refined: Refined
+
+
+def refined_correspondences(
+    drawing: Drawing, region: Query, alignments: list[Alignment], options: RegionOptions
+) -> Stepper[Refined]:
+    """First-order correspondences of the descriptors and of the alignments, refined (section 3.4).
+
+    Parameters
+    ----------
+    drawing : Drawing
+    region : Query
+    alignments : list[Alignment]
+    options : RegionOptions
+
+    Returns
+    -------
+    Stepper[Refined]
+    """
+    noisy = Correspondences.joined(
+        [described(drawing, region, options.mirrored, options.largest_scale), aligned(alignments)]
+    )
+    return (yield from refine(region.points, noisy, region.size, options.smoothing_radius * region.size))
+
+
+def candidates(
+    drawing: Drawing, region: Query, nodes: Nodes, fitter: Fitter, options: RegionOptions
+) -> Stepper[Candidates]:
+    """Candidates of all sources.
+
+    Parameters
+    ----------
+    drawing : Drawing
+    region : Query
+    nodes : Nodes
+    fitter : Fitter
+    options : RegionOptions
+
+    Returns
+    -------
+    Stepper[Candidates]
+    """
+    contours = drawing.contours
+    yield 0.0, "aligning lines"
+    alignments = align(contours, region.runs, region.rest, options.mirrored, MOST_ALIGNED)
+    chains = chain(contours, region.runs, region.rest, options.mirrored)
+    yield 0.2, "comparing descriptors"
+    refined = yield from within(refined_correspondences(drawing, region, alignments, options), 0.2, 0.6)
+    alike = similarities(nodes, refined, options.joint_tolerance)
+    least = max(3, round(LEAST_SHARE * len(region.points)))
+    sets = (yield from within(clusters(nodes, refined, alike, least), 0.6, 1.0))[:MOST_CLUSTERS]
+    if options.branches:
+        sets += [branched(s, nodes, refined, alike) for s in sets]
+    linked = [
+        (
+            fitter.through(refined.node[c], refined.image[c], refined.factor[c], refined.magnitude[c]),
+            bool(refined.mirrored[c[0]]),
+        )
+        for c in (s.members for s in sets)
+    ]
+    along = [
+        [(fitter.start(c.source, c.target, np.ones(len(c.source)), (0.1, 0.1)), c.mirrored) for c in some]
+        for some in (chains.found[:MOST_CHAINED], alignments)
+    ]
+    laid = [
+        (np.concatenate([a * nodes.at + b, np.full(len(nodes.at), a)]), flip)
+        for a, b, flip in laid_over(
+            fitter.target, fitter.samples.points, region.size, options.mirrored, options.largest_scale
+        )
+    ]
+    starts: list[Start] = []
+    for some in (*along, linked, laid):
+        starts += _chosen(_distinct(some, SAME * region.size), fitter)
+    return Candidates(_promising(_distinct(starts, SAME * region.size), fitter), alignments, chains, refined)
+
+
+def _chosen(starts: list[Start], fitter: Fitter) -> list[Start]:
+    """The first candidates of every place, best first."""
+    if not starts:
+        return []
+    unknowns, mirrored = np.array([u for u, _ in starts]), np.array([flip for _, flip in starts])
+    return [starts[i] for i in fitter.apart(unknowns, mirrored, EACH_PLACE, EACH_SOURCE)]
+
+
+def _promising(starts: list[Start], fitter: Fitter) -> list[Start]:
+    """The candidates that bring most lines onto lines, each place with some of its own."""
+    if not starts:
+        return []
+    unknowns, mirrored = np.array([u for u, _ in starts]), np.array([flip for _, flip in starts])
+    order = np.argsort(-fitter.promise(unknowns, mirrored), kind="stable")
+    apart = fitter.apart(unknowns[order], mirrored[order], EACH_PLACE, MOST_STARTS)
+    return [starts[order[i]] for i in apart]
+
+
+def _distinct(starts: list[Start], near: float) -> list[Start]:
+    """The first of every group of candidates that map the query points to nearly the same places."""
+    if not starts:
+        return []
+    m = len(starts[0][0]) // 2
+    at, mirrored = np.array([u[:m] for u, _ in starts]), np.array([flip for _, flip in starts])
+    kept: list[int] = []
+    for k in range(len(starts)):
+        same = mirrored[kept] == mirrored[k]
+        if not (np.abs(at[kept] - at[k]).mean(1)[same] <= near).any():
+            kept.append(k)
+    return [starts[k] for k in kept]
