@@ -304,6 +304,7 @@ def _course(fitter: Fitter, fit: Fit) -> tuple[float, float]:
     unknowns = np.concatenate([fit.function.position, fit.function.factor])
     way = np.angle(fitter.ahead @ unknowns - fitter.rows @ unknowns)
     turned = t.heading[fit.counterpart[both]] - t.heading[before[both]]
+    turned = (turned + np.pi) % (2.0 * np.pi) - np.pi
     miss = turned - sense * (way - np.roll(way, 1))[both]
     miss = (miss + np.pi / 2) % np.pi - np.pi / 2
     own = sense * s.turn[both]
