@@ -34,8 +34,11 @@ class GEOANALOGY_OT_add_node(Edit, bpy.types.Operator):
 
     def invoke(self, context, event):
         context.space_data.cursor_location_from_region(event.mouse_region_x, event.mouse_region_y)
-        self.execute(context)
-        return bpy.ops.node.translate_attach_remove_on_cancel("INVOKE_DEFAULT")
+        result = self.execute(context)
+        if "FINISHED" in result:
+            # It follows the mouse until a click; Esc removes it again.
+            bpy.ops.node.translate_attach_remove_on_cancel("INVOKE_DEFAULT")
+        return result
 
 
 def register():

@@ -22,7 +22,11 @@ from .tree_store import (
     ordered_nodes,
     placed_by,
     require_operations,
+    sources_of,
 )
+
+#: Nodes beside each other before a chain goes on in the next row.
+LONGEST_ROW = 12
 
 #: Longest name of a node in bytes: Blender would cut the rest off.
 LONGEST_NAME = 63
@@ -128,16 +132,21 @@ def _require_names(nodes: Sequence[Node]) -> None:
 
 
 def _add_nodes(tree: bpy.types.NodeTree, nodes: Sequence[Node]) -> None:
-    """Add nodes, inputs first, each a step to the right of what it builds on."""
-    rows: dict[int, int] = {}
-    taken = {other.name: round(other.location[0] / NODE_GAP) for other in tree.nodes}
+    """Add nodes, inputs first, each a step to the right of what it builds on; long chains go on in further rows."""
+    depths: dict[str, int] = {}
+    for known in ordered_nodes(tree):
+        depths[known.name] = max((depths[s.name] + 1 for s, _ in sources_of(known) if s.name in depths), default=0)
     low = min((other.location[1] for other in tree.nodes), default=BRANCH_GAP) - BRANCH_GAP
+    places, used = [], {}
     for node in nodes:
-        column = max((taken[link.node] + 1 for link in node.inputs), default=0)
+        depth = depths[node.id] = max((depths[link.node] + 1 for link in node.inputs), default=0)
+        used[depth] = used.get(depth, -1) + 1
+        places.append((depth, used[depth]))
+    rows = max(used.values(), default=0) + 1
+    for node, (depth, row) in zip(nodes, places, strict=True):
         made = add_node(tree, node, library_objects(node), Plane())
-        row = rows[column] = rows.get(column, -1) + 1
-        made.location = (column * NODE_GAP, low - row * BRANCH_GAP)
-        taken[node.id] = column
+        turn, column = divmod(depth, LONGEST_ROW)
+        made.location = (column * NODE_GAP, low - (turn * rows + row) * BRANCH_GAP)
 
 
 def library_objects(node: Node) -> list[Placed]:

@@ -524,3 +524,30 @@ def test_a_setting_that_sifts_shows_the_walls_as_they_are_then():
     assert node["count"] < 16 and few != cut
     node.threshold = 0.5
     assert volumes() == cut
+
+
+def test_a_result_on_a_wall_can_be_explained():
+    corners, _ = houses()
+    boxed_windows(corners)
+    key = next(key for key in boxes() if key.startswith("house/parcel 3"))
+    item = activate(boxes()[key])
+    assert bpy.ops.geoanalogy.explain(EXEC, True) == {"FINISHED"}
+    reasons = bridge("explanation").explanation_of(bpy.context.scene, item)
+    assert reasons and any("wall" in reason.text for reason in reasons)
+
+
+def test_an_appended_tree_builds_in_another_file(tmp_path):
+    corners, _ = houses()
+    windows(corners)
+    built, name = sorted(volumes().values()), operations_tree().name
+    activate(bpy.data.objects["parcel 1"])
+    bpy.ops.geoanalogy.apply(EXEC, True, parcels="SELECTED")
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "style.blend"))
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    for i, _ in enumerate(parcels()):
+        bpy.data.objects[f"parcel {i}"].name = f"plot {i}"
+    with bpy.data.libraries.load(str(tmp_path / "style.blend")) as (_, wanted):
+        wanted.node_groups = [name]
+    # The parcels that it was restricted to are not here: it is applied to all.
+    assert bpy.ops.geoanalogy.apply(EXEC, True) == {"FINISHED"}
+    assert sorted(volumes().values()) == pytest.approx(built, rel=1e-4)
