@@ -21,6 +21,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
 SCENES = ("apartment", "garden", "crowns", "street")
 HOUSES, KITCHENS, SKYSCRAPERS, INTERIORS = "houses", "kitchens", "skyscrapers", "interiors"
+CITY = "city"
 
 #: Seed of what is built by chance, and the second camera of a scene that a tree has built.
 SEED, BEHIND = 7, "From behind"
@@ -100,11 +101,17 @@ def build_interiors(folder: Path) -> None:
     module("sample_blends.interiors", "--output", folder / f"{INTERIORS}.png", *views)
 
 
+def build_city(folder: Path) -> None:
+    """Generate the cities of four maps, and draw each from above and from its streets."""
+    module("sample_blends.city", "--output", folder)
+
+
 BUILDERS = {
     HOUSES: build_houses,
     KITCHENS: build_kitchens,
     SKYSCRAPERS: build_skyscrapers,
     INTERIORS: build_interiors,
+    CITY: build_city,
 }
 
 
@@ -120,12 +127,9 @@ def main() -> None:
     arguments.output.mkdir(parents=True, exist_ok=True)
     for scene in arguments.scenes:
         if scene in BUILDERS:
-            if arguments.rebuild and scene != INTERIORS:  # which is made of what others have recorded
+            if arguments.rebuild and scene not in (INTERIORS, CITY):  # which are made of what others have recorded
                 module(f"sample_blends.{scene}")
             BUILDERS[scene](arguments.output.resolve())
-            continue
-        if scene == CITY:
-            subprocess.run([sys.executable, "-m", "sample_blends.city", "--output", str(arguments.output)], check=True)
             continue
         if scene in DRAWINGS:
             draw_sheet(scene, arguments.output.resolve(), arguments.rebuild)
