@@ -3,8 +3,9 @@
 Its modules are imported by `register()`, so that reading this file asks for no Blender.
 
 Reading order: `names`; `planes`, `shapes` and `ground`, from objects to scenes; `footprints`; `tree_types`,
-`tree_store` and `tree_editing`, the operations tree in the .blend; `evaluating`, `lessons` and `recording`, from an
-example to its results; `instances`, which shows them; `refresh` and `corrections`, which sift them; `replay`.
+`tree_store`, `tree_writing` and `tree_editing`, the operations tree in the .blend; `evaluating`, `sites`, `lessons` and
+`recording`, from an example to its results; `instances`, which shows them; `refresh` and `corrections`, which sift
+them; `replay`. `building` records what makes solids, `whole` evaluates trees that have such nodes, `masses` shows them.
 `buildings` writes what a stored tree has built, by `shading` and `outdoors`.
 """
 

@@ -19,7 +19,8 @@ from .evaluating import after_steps, evaluations, read_surroundings
 from .ground import labels_of
 from .planes import Plane
 from .tree_editing import chosen_outputs, free_id
-from .tree_store import add_node, ensure_tree, ordered_nodes, tree_of
+from .tree_store import ensure_tree, ordered_nodes, tree_of
+from .tree_writing import add_node
 from .whole import Shown, whole_steps, write_whole
 
 #: Labels that are listed where one is not found.

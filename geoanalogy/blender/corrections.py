@@ -19,7 +19,8 @@ from .planes import Plane
 from .refresh import proposed_by
 from .showing import show_again
 from .sites import site_under, sites_before
-from .tree_store import builds, engine_node, is_building, is_placement, placed_by, require_operations, write_operation
+from .tree_store import builds, engine_node, is_building, is_placement, placed_by, require_operations
+from .tree_writing import write_operation
 
 #: Distance, in scene units, and angle, in radians, from its place below which a result has not been moved: single
 #: precision at a kilometre from the origin.

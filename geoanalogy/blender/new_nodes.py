@@ -10,7 +10,7 @@ from ..operations.selection import Selection
 from . import names
 from .planes import Plane
 from .tree_editing import free_id
-from .tree_store import add_node
+from .tree_writing import add_node
 
 #: Kinds of operations that need no examples, and what they do.
 KINDS = {

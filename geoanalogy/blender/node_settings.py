@@ -15,7 +15,8 @@ from ..operations.extrusion import Extrusion
 from ..operations.selection import Selection
 from . import names
 from .plain import from_property
-from .tree_store import engine_node, write_operation
+from .tree_store import engine_node
+from .tree_writing import write_operation
 
 #: The kinds of operations whose settings are edited here.
 EDITED = {Extrusion.type, Boolean.type, Selection.type}

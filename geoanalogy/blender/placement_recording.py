@@ -49,7 +49,6 @@ from .sites import site_under, sites_before, sites_of
 from .tree_editing import chosen_outputs, free_id
 from .tree_store import (
     Placed,
-    add_node,
     builds,
     engine_node,
     ensure_tree,
@@ -59,9 +58,8 @@ from .tree_store import (
     placed_by,
     require_operations,
     tree_of,
-    write_operation,
-    write_placed,
 )
+from .tree_writing import add_node, write_operation, write_placed
 from .whole import whole_steps, write_whole
 
 #: Upward part of a unit normal from which a face counts as level rather than as a wall: 45 degrees.

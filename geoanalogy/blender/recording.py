@@ -42,7 +42,8 @@ from .ground import label_of
 from .lessons import learn, learn_group, learn_row, scene_without
 from .sites import Site, site_of, sites_in
 from .tree_editing import chosen_outputs, free_id
-from .tree_store import Placed, add_node, builds, ensure_tree, placed_by, tree_of, write_operation, write_placed
+from .tree_store import Placed, builds, ensure_tree, placed_by, tree_of
+from .tree_writing import add_node, write_operation, write_placed
 from .whole import whole_steps, write_whole
 
 #: Least importance that is computed; the threshold of the slider lies above it.

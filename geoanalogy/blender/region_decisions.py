@@ -8,7 +8,8 @@ import bpy
 from ..operations.decisions import Decisions
 from . import names
 from .region_results import reject_all_below, show_targets
-from .tree_store import drawing_nodes, engine_node, tree_of, write_operation
+from .tree_store import drawing_nodes, engine_node, tree_of
+from .tree_writing import write_operation
 
 
 def decide_on_regions(

@@ -35,17 +35,8 @@ from .region_results import (
     write_targets,
 )
 from .tree_editing import free_id, leaf
-from .tree_store import (
-    add_node,
-    drawing_nodes,
-    engine_node,
-    ensure_tree,
-    plane_of,
-    recorded_nodes,
-    tree_of,
-    works_on_drawings,
-    write_operation,
-)
+from .tree_store import drawing_nodes, engine_node, ensure_tree, plane_of, recorded_nodes, tree_of, works_on_drawings
+from .tree_writing import add_node, write_operation
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,8 @@ from .drawing import draw_picture
 from .evaluating import read_surroundings
 from .lessons import relearned_steps
 from .region_recording import replayed_steps, write_replayed
-from .tree_store import drawing_nodes, operation_nodes, ordered_nodes, require_operations, tree_of, write_operation
+from .tree_store import drawing_nodes, operation_nodes, ordered_nodes, require_operations, tree_of
+from .tree_writing import write_operation
 from .whole import told, whole_steps, write_whole
 
 

@@ -13,17 +13,8 @@ from ..operations.tree import OperationsTree
 from . import names
 from .planes import Plane
 from .tree_links import unwatched
-from .tree_store import (
-    BRANCH_GAP,
-    NODE_GAP,
-    Placed,
-    add_node,
-    engine_tree,
-    ordered_nodes,
-    placed_by,
-    require_operations,
-    sources_of,
-)
+from .tree_store import Placed, engine_tree, ordered_nodes, placed_by, require_operations, sources_of
+from .tree_writing import BRANCH_GAP, NODE_GAP, add_node
 
 #: Nodes beside each other before a chain goes on in the next row.
 LONGEST_ROW = 12

@@ -92,3 +92,8 @@ def volume_of(item):
     item.data.calc_loop_triangles()
     a, b, c = (points[[t.vertices[k] for t in item.data.loop_triangles]] for k in range(3))
     return float(np.einsum("ij,ij->", np.cross(a, b), c) / 6)
+
+
+def volumes(label="house"):
+    """The volumes of the solids of a label, by their keys."""
+    return {item["ga_key"]: round(volume_of(item), 3) for item in solids(label)}
