@@ -1,6 +1,7 @@
 """Tiles built on a Dask cluster. Dask is asked for only here."""
 
 import importlib
+import time
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -53,13 +54,13 @@ def build_there(job: str, work: Sequence[Work], address: str) -> Iterator[tuple[
             f"no Dask scheduler answers at {address} ({error}); start one, or give another address"
         ) from None
     try:
-        yield from _futures(client, distributed, job, work, remote.build)
+        yield from _futures(client, job, work, remote.build)
     finally:
         client.close()
         pickles.unregister_pickle_by_value(remote)
 
 
-def _futures(client: Any, distributed: Any, job: str, work: Sequence[Work], build: Any) -> Iterator[Any]:
+def _futures(client: Any, job: str, work: Sequence[Work], build: Any) -> Iterator[Any]:
     everywhere = client.scatter(job, broadcast=True, hash=True) if client.nthreads() else job
     futures = {
         client.submit(build, everywhere, one.scene, digest(), key=f"geoanalogy-{one.key}", retries=1): one.key
@@ -68,11 +69,10 @@ def _futures(client: Any, distributed: Any, job: str, work: Sequence[Work], buil
     try:
         left = set(futures)
         while left:
-            try:
-                done = distributed.wait(left, timeout=PATIENCE, return_when="FIRST_COMPLETED").done
-            except (TimeoutError, distributed.TimeoutError):
+            done = [future for future in left if future.done()]
+            if not done:
+                time.sleep(PATIENCE)
                 yield None
-                continue
             for future in sorted(done, key=lambda f: futures[f]):
                 left.discard(future)
                 if future.status != "finished":

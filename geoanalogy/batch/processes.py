@@ -127,18 +127,16 @@ class _Crew(threading.Thread):
     def stop(self) -> None:
         """End the process; the thread ends when it next looks."""
         self._stopped.set()
-        process = self._process
-        if process is not None:
-            process.kill()
-            process.wait()
-            for stream in (process.stdin, process.stdout):
-                if stream is not None:
-                    with suppress(OSError):
-                        stream.close()
+        if self._process is not None:
+            self._process.kill()
+            _let_go(self._process)
 
     def _ask(self, files: list[str]) -> str | None:
         """Have a tile built: what it failed by, "" where it did not; None where the process has ended."""
-        if self._process is None or self._process.poll() is not None:
+        if self._process is not None and self._process.poll() is not None:
+            _let_go(self._process)
+            self._process = None
+        if self._process is None:
             self._process = _started()
         process = self._process
         assert process.stdin is not None and process.stdout is not None
@@ -153,6 +151,15 @@ class _Crew(threading.Thread):
             return None
         said = json.loads(answer)
         return "" if said == "done" else str(said)
+
+
+def _let_go(process: "subprocess.Popen[str]") -> None:
+    """Close what connects to a process that ends."""
+    process.wait()
+    for stream in (process.stdin, process.stdout):
+        if stream is not None:
+            with suppress(OSError, ValueError):
+                stream.close()
 
 
 def _started() -> "subprocess.Popen[str]":

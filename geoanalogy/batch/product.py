@@ -2,6 +2,7 @@
 
 import io
 import json
+import zipfile
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -182,7 +183,7 @@ class Product:
                 masses = Masses(mesh, *starts, texts["names"], texts["labels"], texts["parcels"])
                 boxes = (there[name] for name in ("places", "scales", "low", "size"))
                 return cls(masses, Placed(*boxes, *texts["placed"]), texts["facts"])
-        except (ValueError, KeyError, EOFError, OSError, TypeError, IndexError) as error:
+        except (ValueError, KeyError, EOFError, OSError, TypeError, IndexError, zipfile.BadZipFile) as error:
             if isinstance(error, InputError):
                 raise
             raise InputError(f"the finished tile is damaged ({error}); build it again") from None

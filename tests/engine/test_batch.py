@@ -1,0 +1,233 @@
+"""Jobs in tiles: the same result whoever builds what, stopping and going on, failures, levels of detail."""
+
+import json
+import os
+import signal
+
+import pytest
+from shapes import rectangle
+
+from geoanalogy import InputError, OperationsTree, Polygon, Scene
+from geoanalogy.batch import computing, processes
+from geoanalogy.batch.detail import depths, simplified
+from geoanalogy.batch.generation import Choices, Stopped, generate, merged, remaining
+from geoanalogy.batch.manifest import SCHEMA, manifest
+from geoanalogy.batch.product import Product, together
+from geoanalogy.batch.release import digest, version
+from geoanalogy.batch.tiles import divide, read_scene_text, scene_text, units_of, wanted_labels
+from geoanalogy.geometry.extrusion import FaceLabels
+from geoanalogy.operations.boolean import Boolean
+from geoanalogy.operations.extrusion import Extrusion
+from geoanalogy.operations.node import Link, Node
+from geoanalogy.operations.selection import Selection
+
+
+def tree():
+    """Plots are extruded by chance; half of the tops get another block, whose top another."""
+    top = Extrusion(label="top", height=1.0, factor=(0.5, 2.0), faces=FaceLabels(top="upper top"))
+    return OperationsTree(
+        [
+            Node("up", Extrusion(label="plot", height=4.0, factor=(0.5, 1.5))),
+            Node("some", Selection(label="top", weights=(1.0, 1.0)), (Link("up"),)),
+            Node("block", top, (Link("some"),)),
+            Node("all", Boolean(label="top", kind="merge"), (Link("block"), Link("some", 1))),
+        ]
+    )
+
+
+def plots(count=12, label="plot"):
+    return Scene(
+        [Polygon(rectangle(8, 12, (10.0 * (k % 4), 20.0 * (k // 4))), label, f"p{k:02d}") for k in range(count)]
+    )
+
+
+def contents(job):
+    """What has been built, whatever tile it was in."""
+    whole = together(product for _, product in job.products())
+    every = {name: whole.masses.single(k) for k, name in enumerate(whole.masses.names)}
+    return {
+        n: (m.vertices.tobytes(), m.faces.tobytes(), m.uv.tobytes(), [m.materials[k] for k in m.material_index])
+        for n, m in sorted(every.items())
+    }
+
+
+def built(scene, folder, choices, progress=None):
+    return generate(tree(), scene, folder, choices, progress)
+
+
+def test_tiles_order_and_processes_change_nothing(tmp_path):
+    scene = plots()
+    whole = contents(built(scene, tmp_path / "a", Choices(seed=3, per_tile=100)))
+    assert len(whole) == 12
+    assert contents(built(scene, tmp_path / "b", Choices(seed=3, per_tile=1))) == whole
+    shuffled = Scene(scene.polygons[::-1])
+    assert contents(built(shuffled, tmp_path / "c", Choices(seed=3, per_tile=5))) == whole
+    assert contents(built(scene, tmp_path / "d", Choices(seed=3, per_tile=2, jobs=2))) == whole
+    assert contents(built(scene, tmp_path / "e", Choices(seed=4))) != whole
+    applied = {e.id: e.mesh.vertices.tobytes() for e in tree().apply(scene, 3) if not isinstance(e.mesh, str)}
+    assert applied == {name: parts[0] for name, parts in whole.items()}
+
+
+def test_a_stopped_job_goes_on_where_it_was(tmp_path):
+    scene, choices = plots(), Choices(seed=3, per_tile=3)
+    with pytest.raises(Stopped, match=r"stopped; 2 of 4 tiles are finished and kept in .*goes on from there"):
+        built(scene, tmp_path / "s", choices, lambda share, _: share < 0.5)
+    begun = {path: path.stat().st_mtime_ns for path in (tmp_path / "s").glob("*.npz")}
+    said = []
+    job = built(scene, tmp_path / "s", choices, lambda _, text: said.append(text) or True)
+    assert job.reused == 2 and "2 tiles were finished before" in said[0]
+    assert {path: path.stat().st_mtime_ns for path in begun} == begun
+    assert contents(job) == contents(built(scene, tmp_path / "whole", choices))
+    assert built(scene, tmp_path / "s", choices).reused == 4
+    assert built(scene, tmp_path / "s", Choices(seed=4, per_tile=3)).reused == 0
+
+
+def test_processes_stop_too(tmp_path):
+    with pytest.raises(Stopped):
+        built(plots(), tmp_path, Choices(per_tile=1, jobs=2), lambda share, _: share == 0.0)
+    assert not list(tmp_path.glob("*.json"))
+
+
+def test_a_damaged_tile_is_built_again(tmp_path):
+    job = built(plots(), tmp_path, Choices(per_tile=6))
+    before = contents(job)
+    damaged = job.store.path(job.keys[0])
+    damaged.write_bytes(damaged.read_bytes()[:500])
+    again = built(plots(), tmp_path, Choices(per_tile=6))
+    assert again.reused == 1 and contents(again) == before
+    damaged.unlink()
+    with pytest.raises(InputError, match="tile 001 is no longer in"):
+        contents(again)
+
+
+def test_single_tiles_are_built_apart(tmp_path):
+    one = built(plots(), tmp_path, Choices(per_tile=3, only=(2,)))
+    assert not one.finished and len(one.facts) == 1
+    rest = built(plots(), tmp_path, Choices(per_tile=3))
+    assert rest.reused == 1 and rest.finished
+    with pytest.raises(InputError, match="there is no tile 9; give numbers from 1 to 4"):
+        built(plots(), tmp_path, Choices(per_tile=3, only=(9,)))
+    rest.store.forget()
+    assert not tmp_path.exists()
+
+
+def test_a_parcel_that_fails_is_named_and_the_others_are_built(tmp_path, monkeypatch):
+    build = computing._Worker.build
+
+    def failing(self, ground, units, progress):
+        if any(unit.parcel == "p05" for unit in units):
+            raise ZeroDivisionError("by chance")
+        return build(self, ground, units, progress)
+
+    monkeypatch.setattr(computing._Worker, "build", failing)
+    job = built(plots(), tmp_path, Choices(per_tile=6))
+    problems = [p for key in job.keys for p in job.facts[key]["problems"]]
+    assert problems == ["parcel 'p05' stays empty: internal error (ZeroDivisionError: by chance)"]
+    assert {name.split("/")[1].split("@")[0] for name in contents(job)} == {f"p{k:02d}" for k in range(12)} - {"p05"}
+
+
+def test_a_process_that_is_killed_is_replaced(tmp_path):
+    killed = []
+    started = processes._started
+
+    def weak():
+        process = started()
+        if not killed:
+            killed.append(process.pid)
+            os.kill(process.pid, getattr(signal, "SIGKILL", signal.SIGTERM))
+            process.wait()
+        return process
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(processes, "_started", weak)
+        job = built(plots(), tmp_path / "k", Choices(seed=3, per_tile=3, jobs=2))
+    assert killed and not job.failed
+    assert contents(job) == contents(built(plots(), tmp_path / "o", Choices(seed=3, per_tile=3)))
+
+
+def test_where_no_process_starts_one_sentence_says_so(tmp_path, monkeypatch):
+    monkeypatch.setattr(processes, "PROGRAM", "raise SystemExit(1)  # {paths} {package}")
+    with pytest.raises(InputError, match="no tile could be built: its process ended without a result"):
+        built(plots(), tmp_path, Choices(per_tile=6, jobs=2))
+
+
+def test_what_nothing_is_built_on_is_said(tmp_path):
+    with pytest.raises(InputError, match=r"builds on no parcel of this file: their labels are 'lot', and it works on "):
+        built(plots(label="lot"), tmp_path, Choices())
+
+
+def test_units_hold_what_they_depend_on():
+    block = Polygon(rectangle(100, 100, (0, 0)), "block", "block")
+    one = Polygon(rectangle(10, 10, (0, 0)), "plot", "one", parent="block")
+    other = Polygon(rectangle(10, 10, (20, 0)), "plot", "other", parent="block")
+    pond = Polygon(rectangle(2, 2, (3, 3)), "pond", "pond")
+    scene = Scene([block, one, other, pond])
+    units = units_of(scene, wanted_labels(tree()))
+    assert [(u.parcel, u.members) for u in units] == [("one", ("block", "one", "pond")), ("other", ("block", "other"))]
+    assert [u.parcel for u in units_of(scene, None)] == ["block"]
+    again, read = read_scene_text(scene_text(scene, units[:1]))
+    assert read == units[:1] and [p.id for p in again.polygons] == ["block", "one", "pond"]
+    assert again.parent("pond").id == "one" and again.parent("one").id == "block"
+
+
+def test_parcels_that_share_something_built_on_are_built_together():
+    left = Polygon(rectangle(10, 10, (0, 0)), "plot", "left")
+    right = Polygon(rectangle(10, 10, (10, 0)), "plot", "right")
+    across = Polygon(rectangle(4, 4, (8, 3)), "plot", "across")
+    units = units_of(Scene([left, right, across]), frozenset({"plot"}))
+    assert len(units) == 1 and set(units[0].members) == {"left", "right", "across"}
+
+
+def test_tiles_are_neighbours_and_do_not_depend_on_the_order():
+    scene = plots(16)
+    units = units_of(scene, frozenset({"plot"}))
+    tiles = divide(scene, units, 4)
+    assert [len(t.units) for t in tiles] == [4] * 4 and sorted(p for t in tiles for p in t.parcels) == sorted(
+        str(p.id) for p in scene.polygons
+    )
+    assert divide(scene, units[::-1], 4) == tiles
+    assert divide(scene, [], 4) == []
+
+
+def test_levels_of_detail_leave_out_what_is_finer(tmp_path):
+    assert depths(tree()) == {"up": 0, "some": 0, "block": 1, "all": 1}
+    assert [n.muted for n in simplified(tree(), "mass").nodes] == [n.id in ("block", "all") for n in tree().nodes]
+    assert simplified(tree(), "facade").nodes == tree().nodes
+    full = contents(built(plots(), tmp_path / "f", Choices(seed=3)))
+    mass = contents(built(plots(), tmp_path / "m", Choices(seed=3, detail="mass")))
+    assert mass.keys() == full.keys() and mass != full
+    # The heights that chance has given do not change; half of the plots have nothing on them.
+    assert 0 < sum(mass[name] == full[name] for name in mass) < len(mass)
+
+
+def test_a_product_is_read_as_it_was_written(tmp_path):
+    job = built(plots(), tmp_path, Choices())
+    ((_, product),) = job.products()
+    assert Product.from_bytes(product.to_bytes()).content() == product.content()
+    assert set(product.masses.parcels) == {f"p{k:02d}" for k in range(12)}
+    with pytest.raises(InputError, match="the finished tile is damaged"):
+        Product.from_bytes(b"PK nothing")
+
+
+def test_the_manifest_says_what_was_made(tmp_path):
+    job = built(plots(), tmp_path, Choices(per_tile=6))
+    tiles = [(tile, key, job.facts[key]) for tile, key in zip(job.tiles, job.keys, strict=True)]
+    plain = json.loads(json.dumps(manifest([], {}, {"seed": 0}, tiles, ["a sliver"])))
+    assert plain["schema"] == SCHEMA and plain["version"] == version() and plain["engine"] == digest()
+    assert plain["counts"]["parcels"] == 12 and [len(t["parcels"]) for t in plain["tiles"]] == [6, 6]
+    assert plain["problems"] == ["a sliver"] and plain["seconds"]["all"] >= plain["seconds"]["extrusion"] > 0
+
+
+def test_several_trees_are_one():
+    one = OperationsTree([Node("up", Extrusion(label="house", height=2.0))])
+    other = OperationsTree([Node("up", Extrusion(label="tower", height=9.0))])
+    whole = merged([("low", one), ("high", other)])
+    assert [n.id for n in whole.nodes] == ["high up", "low up"]
+    assert merged([("low", one)]) is one
+    scene = Scene([Polygon(rectangle(5, 5), "house", "h"), Polygon(rectangle(5, 5, (9, 0)), "tower", "t")])
+    assert sorted(e.solid.volume for e in whole.apply(scene)) == pytest.approx([50, 225])
+
+
+@pytest.mark.parametrize(("seconds", "said"), [(3, "10 s"), (44, "40 s"), (150, "2 min"), (7500, "2 h 5 min")])
+def test_the_remaining_time_is_said_roughly(seconds, said):
+    assert remaining(seconds) == said
