@@ -11,6 +11,7 @@ from mathutils import Matrix
 TURN = np.linspace(0.0, 2.0 * np.pi, 60)
 RING = np.stack([0.2 + 1.9 * np.cos(TURN), 1.5 * np.sin(TURN)], 1)[:-1]
 PLACES = [((0.0, 0.0), 1.0, 0.0), ((6.0, 1.0), 1.3, 0.8), ((1.0, 6.0), 0.8, 2.5)]
+INNER = RING * 0.4
 EXEC = "EXEC_DEFAULT"
 
 #: Planes that an illustrator draws on: from above, from the front, and tilted.
@@ -100,6 +101,17 @@ def leaves_found(plane=LEVEL, make=curve_drawing):
     make(all_leaves(), plane)
     draw_query(plane=plane, name="leaf")
     return find()
+
+
+def patch(plane=LEVEL, points=INNER, height=0.0, name="Patch"):
+    """A mesh of one face with UVs, a material and a vertex group, on the query."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(in_space(points, plane, height).tolist(), [], [list(range(len(points)))])
+    mesh.uv_layers.new(name="UVMap").uv.foreach_set("vector", (points / 4 + 0.5).ravel().astype(np.float32))
+    mesh.materials.append(bpy.data.materials.new("Paint"))
+    item = link(bpy.data.objects.new(name, mesh))
+    item.vertex_groups.new(name="tip").add([0, 3], 0.75, "REPLACE")
+    return item
 
 
 def image(size=16):
