@@ -148,7 +148,7 @@ def build(picture: Picture) -> bpy.types.Scene:
         print(f"{picture.name}, {edit.name}: {node['count']} regions painted", flush=True)
     extent = np.array(picture.high) - picture.low
     width, height = np.round(RENDERED * extent / extent.max()).astype(int)
-    stage.settings(scene, int(width), int(height), 40)
+    stage.settings(scene, int(width), int(height), 16)
     scene.cycles.transparent_max_bounces = 64
     scene.cycles.use_denoising = False
     scene.view_settings.view_transform = "Standard"
@@ -165,17 +165,18 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("scene")
     parser.add_argument("--output", type=Path, required=True)
-    parser.add_argument("--with-results", action="store_true", help="keep what has been found")
+    parser.add_argument("--painted", type=Path, help="write the file with what has been found here too")
     arguments = parser.parse_args()
-    scene = build(picture_of(arguments.scene))
-    if not arguments.with_results:
-        from geoanalogy.blender import names
-        from geoanalogy.blender.instances import clear_results
-        from geoanalogy.blender.tree_store import drawing_nodes, tree_of
+    from geoanalogy.blender import names
+    from geoanalogy.blender.instances import clear_results
+    from geoanalogy.blender.tree_store import drawing_nodes, tree_of
 
-        clear_results(scene)
-        for node in drawing_nodes(tree_of(scene)):
-            node.pop(names.MATCHES, None)
+    scene = build(picture_of(arguments.scene))
+    if arguments.painted is not None:
+        bpy.ops.wm.save_as_mainfile(filepath=str(arguments.painted.resolve()), compress=True, copy=True)
+    clear_results(scene)
+    for node in drawing_nodes(tree_of(scene)):
+        node.pop(names.MATCHES, None)
     bpy.ops.outliner.orphans_purge(do_recursive=True)
     bpy.ops.wm.save_as_mainfile(filepath=str(arguments.output.resolve()), compress=True)
     print(f"saved {arguments.output}")
