@@ -26,7 +26,8 @@ from geoanalogy.placements import calibration, survey
 from geoanalogy.placements.arrangement import arrangement_of
 from geoanalogy.placements.boxes import union_overlap
 from geoanalogy.placements.candidates import predictions
-from geoanalogy.placements.evidence import AMONG, SINGLE, Company
+from geoanalogy.placements.company import AMONG, Company
+from geoanalogy.placements.evidence import SINGLE
 from geoanalogy.placements.one_each import ONE_EACH
 from geoanalogy.placements.selection import rescaled, useful_cut, without_overlaps
 

@@ -9,6 +9,8 @@ Array = NDArray[np.float64]
 
 #: Share of the smaller of two neighbours' extents that must lie abreast for a gap to be between them.
 ABREAST = 0.5
+#: Share of an extent up to which two edges are one but for rounding: what is flush neither overlaps nor leaves a gap.
+TOUCHING = 1e-6
 
 
 def areas(boxes: Array) -> Array:
@@ -222,7 +224,8 @@ def gaps_between(drawn: dict[str, Array]) -> dict[str, Array]:
             every[:, None, across], every[None, :, across]
         )
         way = every[None, :, axis] - every[:, None, axis + 2]
-        abreast = (shared >= ABREAST * np.minimum(extent[:, None], extent[None])) & (way > 0)
+        shorter = np.minimum(extent[:, None], extent[None])
+        abreast = (shared >= (ABREAST - TOUCHING) * shorter) & (way > TOUCHING * shorter)
         way = np.where(abreast, way, np.inf)
         # Neighbours in both senses: nearest seen from either side, so that mirroring the drawing keeps the pairs.
         mutual = (way <= way.min(axis=1, keepdims=True)) & (way <= way.min(axis=0, keepdims=True)) & abreast

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .calibration_table import TABLE
-from .evidence import AMONG, SINGLE
+from .company import AMONG
+from .evidence import SINGLE
 from .one_each import ONE_EACH
 
 Array = NDArray[np.float64]

@@ -26,8 +26,12 @@ CANDIDATE_CELL = 0.08
 EXTENT_CELL = 0.15
 #: Ways of keeping coordinates that are tried, of the five.
 WAYS = 3
+#: Difference in agreement, a few times what float32 leaves of it, below which two ways are worth the same.
+EQUALLY_AGREED = 1e-5
 #: Cell, as a share of the candidates' one, in which predictions are equal but for rounding.
 EQUAL = 1e-4
+#: Digits of lengths in cells that are no rounding errors.
+DIGITS_OF_CELLS = 5
 #: How many of the most predicted extents are crossed, along x and along y.
 CROSSED = (30, 20)
 #: How many of the surest beats of rhythms are crossed.
@@ -133,7 +137,7 @@ def agreed_ways(weights: Array) -> NDArray[np.bool_]:
     """
     low, high = weights[:, 0], weights[:, 2]
     worth = np.concatenate([low[:, :3] + high[:, :3], low[:, :1] + high[:, 1:2], low[:, 3:] + high[:, 3:]], axis=1)
-    return worth >= np.sort(worth, axis=1)[:, -WAYS, None] - 1e-9
+    return worth >= np.sort(worth, axis=1)[:, -WAYS, None] - EQUALLY_AGREED
 
 
 def _from_parent(lesson: Lesson, arrangement: Arrangement) -> Array:
@@ -195,6 +199,8 @@ def most_predicted(low: Array, high: Array, cell: float, count: int) -> Array:
 def distinct(boxes: Array, repeats: NDArray[np.intp], cell: Array) -> Array:
     """One box of each cell of a grid in (x0, y0, x1, y1): the one predicted most often, else nearest to the mean.
 
+    Two boxes are equally near to their mean: then the smaller one counts, else the one nearer to the parent's centre.
+
     Parameters
     ----------
     boxes : ndarray of shape (n, 4)
@@ -211,8 +217,12 @@ def distinct(boxes: Array, repeats: NDArray[np.intp], cell: Array) -> Array:
         return boxes
     _, group, number = np.unique(_cells(boxes, cell), return_inverse=True, return_counts=True)
     mean = np.stack([np.bincount(group, column) for column in boxes.T], axis=1) / number[:, None]
-    off = np.abs(boxes - mean[group]).sum(axis=1)
-    order = np.lexsort((off, -repeats, group))
+    off = np.abs(boxes - mean[group]) / cell
+    extent = (boxes[:, 2:] - boxes[:, :2]) / cell[:2]
+    away = np.abs(boxes[:, 2:] + boxes[:, :2]) / cell[:2]
+    # All but rounding apart, which must not choose.
+    near, size, far = (np.round(part.sum(axis=1), DIGITS_OF_CELLS) for part in (off, extent, away))
+    order = np.lexsort((far, size, near, -repeats, group))
     return boxes[order[np.concatenate([[0], np.cumsum(number)[:-1]])]]
 
 

@@ -27,6 +27,8 @@ SURE = 0.95
 FAMILIAR, FOREIGN = 0.5, 0.9
 #: Difference in similarity, a few times what float32 leaves of it, below which two boxes are alike.
 EQUALLY_ALIKE = 1e-4
+#: Digits to which logarithms of deformations differ by more than rounding.
+ROUNDED = 6
 
 
 #: How exactly a box keeps to an element whose rule it follows.
@@ -144,7 +146,8 @@ def construction(lesson: Lesson, arrangement: Arrangement) -> Construction | Non
     deformed = np.abs(size[:, None] - np.log(lesson.sizes)[None]).sum(axis=2).min(axis=1)
 
     def best(some: NDArray[np.intp]) -> int:
-        return int(some[np.lexsort((deformed[some], worth[some] < worth[some].max() - EQUALLY_ALIKE))[0]])
+        close = worth[some] < worth[some].max() - EQUALLY_ALIKE
+        return int(some[np.lexsort((-worth[some], np.round(deformed[some], ROUNDED), close))[0]])
 
     first = best(np.arange(len(boxes)))
     missed = missed_anchor(lesson, matches)

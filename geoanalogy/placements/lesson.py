@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .boxes import BETWEEN
+from .boxes import BETWEEN, TOUCHING
 from .habits import Habits
 from .options import PlacementOptions
 from .signature import BOX, PARENT_BOX, SAMPLE_COUNTS, Signature
@@ -371,7 +371,8 @@ _REST = {5: "xsr", 4: "sr"}
 
 def _lies_within(values: Array) -> NDArray[np.bool_]:
     """Whether boxes overlap the elements that their coordinates (n, 2, 3, 4) are relative to; shape (n,)."""
-    return ((values[:, :, 0, 1] < 0) & (values[:, :, 2, 0] > 0)).all(axis=1)
+    touching = TOUCHING * (values[:, :, 2, 0] - values[:, :, 0, 0])
+    return ((values[:, :, 0, 1] < -touching) & (values[:, :, 2, 0] > touching)).all(axis=1)
 
 
 def _side_by_side(parts: list[dict[str, Array]]) -> dict[str, Array]:

@@ -1,13 +1,11 @@
 """Learning a placement from examples, and placing (chapter 5): the public face of the engine."""
 
 from collections import OrderedDict
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from functools import cache, cached_property, partial
+from collections.abc import Sequence
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from ..errors import InputError
@@ -20,11 +18,13 @@ from .arrangement import Arrangement, arrangement_of
 from .examples import Example, Orientation, checked, nearest_directions, orientation_of, parents_of
 from .lesson import Lesson
 from .options import PlacementOptions
+from .refinement import refined
 from .regression import predicted_targets
+from .results import Placement, disjoint, told
 from .rule import Relation, learned_rule, reasons
 from .selection import rescaled, shape_factor, useful_cut, without_overlaps
 from .signature import Signature, signature
-from .survey import Survey, refined, survey
+from .survey import Survey, survey
 from .taught import Taught, coverage, teach
 
 Array = NDArray[np.float64]
@@ -35,35 +35,6 @@ SURVEYS_KEPT = 64
 FOREMOST = 1 + 1e-9
 #: What a stored model calls its form.
 SCHEMA = "geoanalogy.placement/1"
-
-
-@dataclass(frozen=True)
-class Placement:
-    """One result.
-
-    Attributes
-    ----------
-    rectangle : Rectangle
-        In the scene's coordinates; its width runs along its angle as the examples' do.
-    score : float
-        1 for an example, 0 for what resembles none; comparable between scenes.
-    parent : Polygon
-    novelty : float
-        How far from anything that was taught, 0 to 1: where it is large, an example more would help.
-    why : callable
-        Finds out why it is here, when somebody asks for its `relations`.
-    """
-
-    rectangle: Rectangle
-    score: float
-    parent: Polygon
-    novelty: float
-    why: Callable[[], tuple[Relation, ...]] = field(default=tuple, compare=False, repr=False)
-
-    @cached_property
-    def relations(self) -> tuple[Relation, ...]:
-        """Why it is here: the elements it stands to as examples do, with weights, the surest first."""
-        return self.why()
 
 
 class PlacementModel:
@@ -150,6 +121,30 @@ class PlacementModel:
             found += self._place_in(scene, parent, least, include_examples)
         return sorted(found, key=lambda p: -p.score)
 
+    def novelties(self, scene: Scene) -> list[tuple[Polygon, float]]:
+        """How far every parent is from anything that was taught, whether something is placed there or not.
+
+        Parameters
+        ----------
+        scene : Scene
+
+        Returns
+        -------
+        list of (Polygon, float)
+            1 less the similarity of the place most like an example, 1 where there is no such place; the newest first:
+            there an example more would help most.
+        """
+        found = []
+        for parent in (p for p in scene.polygons if p.label == self.label):
+            nearest = 0.0
+            for frame in self.orientation.frames(parent):
+                arrangement = arrangement_of(scene, parent, frame)
+                shown = self.shown_in(arrangement)
+                seen = self._survey(arrangement, *self._drawn(arrangement, shown))
+                nearest = max(nearest, float(seen.similarities.max(initial=0.0)), float(any(shown)))
+            found.append((parent, float(np.clip(1.0 - nearest, 0.0, 1.0))))
+        return sorted(found, key=lambda one: -one[1])
+
     def _place_in(self, scene: Scene, parent: Polygon, least: float, include_examples: bool) -> list[Placement]:
         found: list[Placement] = []
         frames = self.orientation.frames(parent)
@@ -182,12 +177,12 @@ class PlacementModel:
                         float(score[i]),
                         parent,
                         float(np.clip(1.0 - alike.max(), 0.0, 1.0)),
-                        partial(_told, why, k),
+                        partial(told, why, k),
                     )
                 )
             if include_examples:
                 found += [Placement(t.rectangle, t.target, parent, 0.0) for t in shown if t.target >= max(least, 1e-6)]
-        return _disjoint(found, self.options.allow_overlaps) if len(frames) > 1 and least > 0 else found
+        return disjoint(found, self.options.allow_overlaps) if len(frames) > 1 and least > 0 else found
 
     def _reasons(self, arrangement: Arrangement, boxes: Array) -> list[tuple[Relation, ...]]:
         """Why boxes are where they are."""
@@ -371,24 +366,8 @@ def learn_placement(examples: Sequence[Example], options: PlacementOptions | Non
     )
 
 
-def _told(why: Callable[[], list[tuple[Relation, ...]]], number: int) -> tuple[Relation, ...]:
-    return why()[number]
-
-
 def _parallel(angle: Any, frame: float) -> Any:
     return np.abs((np.asarray(angle) - frame + np.pi) % (2 * np.pi) - np.pi) <= PARALLEL_ANGLE
-
-
-def _disjoint(found: list[Placement], allowed: float) -> list[Placement]:
-    """Placements of different frames without overlaps, the best first."""
-    kept: list[Placement] = []
-    shapes: list[shapely.Polygon] = []
-    for placement in sorted(found, key=lambda p: -p.score):
-        shape = shapely.Polygon(placement.rectangle.ring)
-        if all(shapely.area(shapely.intersection(shape, s)) <= allowed * min(shape.area, s.area) for s in shapes):
-            kept.append(placement)
-            shapes.append(shape)
-    return kept
 
 
 def _plain(values: Array) -> Any:

@@ -182,6 +182,8 @@ def mirrored_extents(extents_along: Array, low: float, high: float) -> Array:
 
 #: Width of the Gaussian of distances, in sizes, at which boxes stand in line.
 IN_LINE = 0.12
+#: How much of an arrangement is in line with one element, in the same width.
+ABREAST_WIDTH = 2.5
 #: Elements that are longer, in sizes, stand in no line: they run across it.
 LARGEST_IN_LINE = 3.0
 
@@ -214,6 +216,7 @@ def alignment(boxes: Array, present: Array, drawn: dict[str, Array], axis: int) 
     lines = np.repeat(rows_of(present[:, [axis, axis + 2]]), 2, axis=1)
     size = float((present[:, axis + 2] - present[:, axis]).mean())
     reach = float(np.ptp(np.concatenate([lines[:, [0, 2]].ravel(), *(e[:, axis] for e in drawn.values())])))
+    wide = ABREAST_WIDTH * IN_LINE * size
     for elements in drawn.values():
         similar = elements[(elements[:, axis + 2] - elements[:, axis]) <= LARGEST_IN_LINE * size]
         if not len(similar):
@@ -221,8 +224,8 @@ def alignment(boxes: Array, present: Array, drawn: dict[str, Array], axis: int) 
         surest, line = 0.0, np.zeros(len(boxes))
         for share in (0.5, 0.0, 1.0):
             at = np.sort(_at(similar, axis, share))
-            places = len(np.unique(np.round(at / (2 * IN_LINE * size))))
-            chance = min(1.0, 2.5 * IN_LINE * size * places / max(reach, size))
+            covered = wide + float(np.minimum(np.diff(at), wide).sum())
+            chance = min(1.0, covered / max(reach, size))
             seen = (_near(_at(lines, axis, share), at, size).sum() + chance) / (len(lines) + 1)
             sure = max(float(seen) - chance, 0.0)
             if sure > surest:

@@ -30,7 +30,8 @@ def thin(boxes: Array, strength: Array, limit: float, most: int) -> NDArray[np.i
         Indices, strongest first.
     """
     order = np.argsort(-strength, kind="stable")[: MOST_COMPARED * most]
-    ranked = boxes[order].astype(np.float32)
+    # Far from the origin, single precision would not tell the boxes apart.
+    ranked = (boxes[order] - np.tile(boxes[:, :2].min(axis=0, initial=np.inf), 2)).astype(np.float32)
     return order[_strongest(ranked, lambda a, b: union_overlap(a, b) >= limit)[:most]]
 
 

@@ -9,8 +9,9 @@ from .arrangement import Arrangement
 from .boxes import interval_overlap, overlap, union_overlap
 from .calibration import ABROAD, ALONE, AT_HOME, Judgement
 from .candidates import crossings, predictions, proposals
+from .company import Company, anchors_of
 from .construction import EQUALLY_ALIKE, construction, is_constructed
-from .evidence import Company, anchors_of, like_parents, single_evidence
+from .evidence import like_parents, single_evidence
 from .lesson import Lesson, Match
 from .one_each import copies, copy_evidence
 from .regularity import beats, rhythm, rows_of
@@ -21,10 +22,6 @@ Array = NDArray[np.float64]
 
 #: Candidates that get a full look, and that may be added when rows and columns are continued.
 LOOKED_AT, GROWN = 300, 150
-#: Proposals near a result that are looked at to refine it.
-VARIANTS = 12
-#: Overlap from which candidates are of the same place.
-SAME_PLACE = 0.6
 #: Overlap from which two candidates are the same.
 SAME = 0.7
 #: Share of the smaller of both that a candidate and an example share at most.
@@ -318,8 +315,10 @@ def one_of(lesson: Lesson, boxes: Array, value: Array) -> tuple[int, Array]:
     around = shared[chosen] >= AROUND
     edges, weight = boxes[around], odds[around]
     order = np.argsort(edges, axis=0, kind="stable")
-    half = np.argmax(np.cumsum(weight[order], axis=0) >= weight.sum() / 2, axis=0)
-    return chosen, np.take_along_axis(edges, np.take_along_axis(order, half[None], axis=0), axis=0)[0]
+    ordered, below = np.take_along_axis(edges, order, axis=0), np.cumsum(weight[order], axis=0) / weight.sum()
+    # Where two halves are equal but for rounding the middle lies between them.
+    either = [np.argmax(below >= 0.5 + by, axis=0)[None] for by in (-EQUALLY_ALIKE, EQUALLY_ALIKE)]
+    return chosen, np.mean([np.take_along_axis(ordered, at, axis=0)[0] for at in either], axis=0)
 
 
 def look(lesson: Lesson, arrangement: Arrangement, boxes: Array, present: Array) -> tuple[Array, Array, Array, Array]:
@@ -342,60 +341,6 @@ def look(lesson: Lesson, arrangement: Arrangement, boxes: Array, present: Array)
     similar = lesson.similarities(matches)
     contrast = similar if lesson.contrast is lesson else lesson.contrast.similarities(lesson.contrast.match(seen))
     return similar, contrast, lesson.habits.constructed(seen), evidence
-
-
-def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDArray[np.intp]) -> tuple[Array, Array]:
-    """Chosen candidates, each moved to what is most similar to the examples nearby.
-
-    The quick look tells places apart, not whether an edge follows the window's edge or its centre: of the proposals
-    that were taken for the same, the full feature vector decides.
-
-    Parameters
-    ----------
-    lesson : Lesson
-    arrangement : Arrangement
-    seen : Survey
-    chosen : ndarray of shape (c,), int
-
-    Returns
-    -------
-    boxes : ndarray of shape (c, 4)
-    similarities : ndarray of shape (c, m)
-        To every example.
-    """
-    boxes, similar = seen.boxes[chosen].copy(), seen.similarities[chosen].copy()
-    if not len(chosen) or not len(seen.predicted) or (seen.chosen is not None and not lesson.habits.exact):
-        return boxes, similar
-    alike = union_overlap(boxes, seen.predicted)
-    near = np.where(alike >= SAME, seen.repeats[None] + alike / 2, -1.0)
-    best = np.argsort(-near, axis=1, kind="stable")[:, :VARIANTS]
-    row = np.repeat(np.arange(len(chosen)), best.shape[1])
-    best, valid = best.ravel(), np.take_along_axis(near, best, axis=1).ravel() >= 0
-    row, best = row[valid], best[valid]
-    variants, where = np.unique(best, return_inverse=True)
-    matches = lesson.match(signature(arrangement, seen.predicted[variants], lesson.options.neighbours, lesson.labels))
-    of_variants = lesson.similarities(matches)
-    p = lesson.positive
-
-    def quality(similarities: Array) -> Array:
-        return similarities[:, p].max(axis=1) + similarities[:, p].mean(axis=1)
-
-    # Variants from the proposals, and the candidates that were looked at, of the same place.
-    among_row, among = np.nonzero(union_overlap(boxes, seen.boxes) >= SAME_PLACE)
-    rows = np.concatenate([row, among_row])
-    options = np.concatenate([seen.predicted[best], seen.boxes[among]])
-    similarities = np.concatenate([of_variants[where.ravel()], seen.similarities[among]])
-    worth = quality(similarities)
-    # Ways that agree equally well differ by rounding: of those the one that deforms the examples least.
-    deformed = (
-        np.abs(np.log(options[:, 2:] - options[:, :2])[:, None] - np.log(lesson.sizes[p])[None]).sum(axis=2).min(axis=1)
-    )
-    top = np.zeros(len(chosen))
-    np.maximum.at(top, rows, worth)
-    order = np.lexsort((deformed, worth < top[rows] - EQUALLY_ALIKE, rows))
-    row, first = np.unique(rows[order], return_index=True)
-    boxes[row], similar[row] = options[order[first]], similarities[order[first]]
-    return boxes, similar
 
 
 def _unlike_shown(boxes: Array, shown: Array) -> NDArray[np.bool_]:

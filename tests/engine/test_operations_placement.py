@@ -232,3 +232,28 @@ def test_settings_that_cannot_be_are_refused_at_once(settings, message):
 def test_a_damaged_setting_is_named(name, value, message):
     with pytest.raises(InputError, match=message):
         RectanglePlacement.from_dict({**sills().to_dict(), name: value})
+
+
+def test_moving_one_example_evaluates_only_what_depends_on_it():
+    gardens = [polygon(20.0 * i, -20, 8 + i, 9, "garden", f"garden {i}") for i in range(3)]
+    scene = ga.Scene([*STREET.polygons, *gardens])
+    shed = [ga.Example(scene, ga.Rectangle(20.0 * i + 2, -18, 2, 2)) for i in range(2)]
+    pot = [ga.Example(scene, ga.Rectangle(r.x, r.y - 0.3, 0.3, 0.3)) for r in (below(scene, i) for i in SHOWN[:2])]
+
+    def sill(moved):
+        shown = [below(scene, i) for i in SHOWN]
+        shown[1] = ga.Rectangle(shown[1].x, shown[1].y - moved, shown[1].width, shown[1].height)
+        examples = [ga.Example(scene, r) for r in shown]
+        return Node("sills", RectanglePlacement.learned(examples, mesh="Sill", label="sill", size=SIZE))
+
+    pots = Node("pots", RectanglePlacement.learned(pot, mesh="Pot", label="pot", size=(0.3, 0.3)), (Link("sills"),))
+    sheds = Node("sheds", RectanglePlacement.learned(shed, mesh="Shed", label="shed", size=(2, 2)), (Link("pots"),))
+    tree = OperationsTree([sill(0.0), pots, sheds])
+    tree.apply(scene)
+    before = tree.evaluations.evaluated
+    assert before == 3
+    tree.with_node(sill(0.0)).apply(scene)
+    assert tree.evaluations.evaluated == before
+    # The pots stand on facades, where sills are; the sheds in gardens, where nothing has changed.
+    tree.with_node(sill(0.05)).apply(scene)
+    assert tree.evaluations.evaluated == before + 2

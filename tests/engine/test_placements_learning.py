@@ -197,6 +197,20 @@ def test_novelty_is_small_where_all_is_as_taught_and_large_where_nothing_is():
     assert min(p.novelty for p in model.place(odd, threshold=0)) > 0.3
 
 
+def test_parents_are_listed_by_their_novelty_also_where_nothing_is_placed():
+    model = learned(STREET)
+    bare = polygon(100, 0, 12, 9, "facade", "bare")
+    odd = [polygon(200, 0, 30, 9, "facade", "odd"), polygon(220, 3, 6, 4, "window", "wide")]
+    scene = ga.Scene([*STREET.polygons, bare, *odd])
+    listed = model.novelties(scene)
+    novelty = {parent.id: value for parent, value in listed}
+    assert [value for _, value in listed] == sorted(novelty.values(), reverse=True)
+    assert not [p for p in model.place(scene) if p.parent.id == "bare"]
+    assert novelty["bare"] > 0.3 and novelty["odd"] > 0.3
+    taught = {parent.id: value for parent, value in model.novelties(STREET)}
+    assert min(taught.values()) == 0.0  # where examples were drawn all is known
+
+
 def test_a_wider_kernel_is_more_tolerant():
     crooked = list(facade(0, 4, 2))
     crooked += facade(20, 3, 1, name="g")
