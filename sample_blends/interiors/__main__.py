@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import geoanalogy as ga
+from geoanalogy.geometry.frame import Frame
 from geoanalogy.geometry.mesh import Mesh
 from geoanalogy.operations.applied import Applied
 
@@ -23,6 +24,9 @@ HOUSES = Path(__file__).resolve().parents[1] / "houses"
 
 #: Height of a condominium's storey, and how far its lowest floor lies above the ground.
 STOREY, PLINTH = 3.1, 0.25
+
+#: How far the floors of rooms lie above that of the storey, so that both can be drawn.
+CLEAR = 0.01
 
 #: Finishes of the building by the last words of its labels.
 FINISHES = {
@@ -62,10 +66,12 @@ def meshes(applied: Applied, number: int, seed: int) -> Iterator[Mesh]:
         if e is not block and isinstance(e.mesh, Mesh) and e.mesh.vertices[:, 2].max() < level + CUT:
             yield finished(e.mesh, FINISHES, "plaster cream")
     furniture, kitchens = furnish(storey, seed)
+    x, y, z = storey.frame.origin
+    floor = Frame((x, y, z + CLEAR), storey.frame.x, storey.frame.y)
     pieces = [m for e in furniture if isinstance(m := e.mesh, Mesh)]
     cut = (below(m, CUT) for e in kitchens if isinstance(m := e.mesh, Mesh))
     for mesh in (*walls(storey), *pieces, *(m for m in cut if m is not None)):
-        yield finished(mesh.placed(storey.frame), KITCHEN_FINISHES, "wall")
+        yield finished(mesh.placed(floor), KITCHEN_FINISHES, "wall")
 
 
 def main() -> int:
