@@ -76,7 +76,8 @@ class Calibration:
         -------
         ndarray of shape (n,)
         """
-        return evidence @ self.weights + self.offset
+        # A product so small is summed faster than it is spread over threads.
+        return np.einsum("nf,f->n", evidence, self.weights) + self.offset
 
     def certainty(self, evidence: Array) -> Array:
         """Probability of rows of evidence.
