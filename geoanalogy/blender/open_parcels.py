@@ -2,7 +2,6 @@
 
 import bpy
 
-from ..errors import InputError
 from ..formats.repair import sound_parcels
 from ..geometry.scene import Scene
 from . import register
@@ -26,10 +25,6 @@ def open_parcels() -> tuple[Scene, list[str]]:
     if not hasattr(bpy.types.Scene, "geoanalogy"):
         register()
     grounds = read_grounds(bpy.context.scene, bpy.context.evaluated_depsgraph_get())
-    if not grounds:
-        raise InputError(
-            "the open file has no labelled parcels; open the .blend that has them, or give --parcels FILE.geojson"
-        )
     problems: list[str] = []
     largest = max(grounds, key=lambda ground: len(ground.scene))
     return sound_parcels("the open file", largest.scene, problems), problems

@@ -1,12 +1,13 @@
 """What an operations tree has built, as a .blend: by the batch program, and by its writer."""
 
+import json
 import sys
 
 import bpy
 import numpy as np
 import pytest
 from conftest import ROOT
-from flats import box, bridge, engine
+from flats import box, bridge, engine, face
 from test_batch import batch_command, run
 
 HEIGHT = 3.0
@@ -56,21 +57,34 @@ def scene_of(path):
     return objects, meshes
 
 
+def shown():
+    """What is instanced in the open file: names of objects, and their places."""
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    return [(i.object.name, np.array(i.matrix_world)) for i in depsgraph.object_instances if i.is_instance]
+
+
 def test_a_blend_is_written_with_masses_instances_and_a_picture(files):
     picture, output, library = (str(files / name) for name in ("out.png", "out.blend", "library.blend"))
     done = apply(files, "--output", output, "--render", picture, "--library", library)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "1 merged meshes, 1 instances" in done.stdout and "missing" not in done.stdout
+    assert "4 elements on 4 parcels" in done.stdout and "missing" not in done.stdout
     assert (files / "out.png").read_bytes()[:4] == b"\x89PNG"
     bpy.ops.wm.open_mainfile(filepath=output)
     scene = bpy.context.scene
-    assert [c.name for c in scene.collection.children] == ["plot", "figure", "Surroundings"]
+    assert [c.name for c in scene.collection.children] == ["plot", "Library", "figure", "Surroundings"]
     (mass,), (figure,) = (list(bpy.data.collections[name].objects) for name in ("plot", "figure"))
     assert len(mass.data.vertices) == 3 * 8 and len(mass.data.polygons) == 3 * 12
     assert {m.name for m in mass.data.materials} == {"facade", "top", "base"}
     assert not any(p.use_smooth for p in mass.data.polygons)
     assert mass.data.validate() is False and len(mass.data.uv_layers) == 1
-    assert figure.data.name == "statue" and tuple(figure.location)[:2] == pytest.approx((2, 32), abs=1e-4)
+    assert figure["ga_label"] == "figure"
+    ((name, place),) = shown()
+    assert name == "statue" and place[:2, 3] == pytest.approx((2, 32), abs=1e-4)
+    assert place[:3, :3] == pytest.approx(np.eye(3), abs=1e-4)
+    assert list(scene["ga_offset"]) == [0.0, 0.0] and json.loads(scene["ga_manifest"])["seed"] == 7
+    record = json.loads((files / "out.manifest.json").read_text())
+    assert record["schema"] == "geoanalogy.manifest/1" and record["counts"]["elements"] == 4
+    assert sorted(p.name for p in files.iterdir() if p.suffix in (".part", ".tiles")) == []
     assert scene.camera.name == "From the front"
     again = files / "again.blend"
     assert apply(files, "--output", str(again), "--library", library).returncode == 0
@@ -83,8 +97,9 @@ def test_a_box_takes_the_place_of_what_the_library_does_not_have(files):
     assert done.returncode == 0, done.stdout + done.stderr
     assert "node 'stand': the library object 'statue' is missing" in done.stdout
     bpy.ops.wm.open_mainfile(filepath=str(files / "out.blend"))
-    (figure,) = bpy.data.collections["figure"].objects
-    assert tuple(figure.dimensions) == pytest.approx((2, 1, 1)) and len(bpy.data.collections["plot"].objects) == 1
+    ((_, place),) = shown()
+    assert np.linalg.norm(place[:3, :3], axis=0) == pytest.approx((2, 1, 1), abs=1e-4)
+    assert place[:3, 3] == pytest.approx((1, 31.5, 0), abs=1e-4) and len(bpy.data.collections["plot"].objects) == 1
 
 
 @pytest.mark.parametrize(
@@ -114,6 +129,88 @@ def test_without_blender_one_sentence_says_what_to_do(files):
     assert done.returncode == 3 and done.stderr.startswith("geoanalogy: the module bpy is missing: install"), (
         done.stderr
     )
+
+
+def test_tiles_are_files_of_their_own_that_the_output_links(files):
+    output = files / "out.blend"
+    done = apply(files, "--output", str(output), "--tiles", str(files / "parts"), "--per-tile", "2", "--jobs", "2")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert sorted(p.name for p in (files / "parts").iterdir()) == ["tile 001.blend", "tile 002.blend"]
+    bpy.ops.wm.open_mainfile(filepath=str(output))
+    assert sorted(library.filepath for library in bpy.data.libraries) == [
+        "//parts/tile 001.blend",
+        "//parts/tile 002.blend",
+    ]
+    masses = [o for o in bpy.context.scene.objects if o.get("ga_label") == "plot"]
+    assert sum(len(mass.data.vertices) for mass in masses) == 3 * 8 and len(shown()) == 1
+
+
+def test_a_single_tile_writes_nothing_until_all_are_there(files):
+    work = ["--work", str(files / "work"), "--per-tile", "2"]
+    one = apply(files, *work, "--only", "1")
+    assert one.returncode == 0 and "1 of 2 tiles are finished" in one.stdout
+    whole = apply(files, *work, "--output", str(files / "out.blend"))
+    assert whole.returncode == 0 and "1 tiles were finished before" in whole.stderr
+    assert (files / "out.blend").is_file() and len(list((files / "work").glob("*.npz"))) == 2
+
+
+def test_the_open_file_may_have_the_parcels(files):
+    face("ground", [(0, 0), (10, 0), (10, 20), (0, 20)], "plot")
+    path = files / "parcels.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
+    program = (
+        f"import sys, bpy; bpy.ops.wm.open_mainfile(filepath={str(path)!r}); sys.path.insert(0, {str(ROOT)!r}); "
+        "from geoanalogy.command_line import main; "
+        f"sys.exit(main(['apply', '--tree', {str(files / 'tree.json')!r}, '--output', {str(files / 'out.obj')!r}]))"
+    )
+    done = run([sys.executable, "-c", program], files)
+    assert "1 elements on 1 parcels" in done.stdout, done.stdout + done.stderr
+
+
+def test_an_earlier_output_stays_where_writing_fails(files, monkeypatch):
+    buildings = bridge("buildings")
+    output, picture = files / "out.blend", files / "out.png"
+    output.write_bytes(b"earlier")
+    picture.write_bytes(b"earlier")
+
+    def full(scene, path):
+        path.write_bytes(b"half of it")
+        raise OSError("no space left on device")
+
+    monkeypatch.setattr(buildings, "draw_picture", full)
+    ground, applied = plots(), tree().apply(plots(), seed=7)
+    facts = {"parcels": [], "elements": 4, "problems": [], "known": 0, "surfaces": 0, "seconds": {}}
+    product = engine("batch.product").product_of(applied, {}, facts)
+    with pytest.raises(OSError, match="no space left on device"):
+        buildings.write(ground, [("tile 001", product)], buildings.Results(output, picture))
+    assert output.read_bytes() == picture.read_bytes() == b"earlier"
+    assert not list(files.glob("*.part*"))
+
+
+def test_a_tree_of_the_map_is_an_instance(files):
+    polygon = engine().Polygon
+    ground = engine().Scene([polygon([(0, 0), (4, 0), (4, 4), (0, 4)], label="statue", id="t")])
+    together = engine("batch.product").together
+    built = bridge("buildings").fill(bpy.context.scene, ground, together([]), files / "library.blend")
+    bpy.context.view_layer.update()
+    ((name, place),) = shown()
+    assert built.problems == () and name == "statue" and "Parcels" not in bpy.context.scene.objects
+    assert place[:3, 3] == pytest.approx((2, 2, 0)) and np.linalg.norm(place[:3, 0]) == pytest.approx(2)
+
+
+def test_rotations_are_kept_exactly_by_many_instances(files):
+    rng = np.random.default_rng(3)
+    axes, _ = np.linalg.qr(rng.normal(size=(500, 3, 3)))
+    axes *= np.sign(np.linalg.det(axes))[:, None, None]
+    axes[:3] = [np.diag(d) for d in ((1, -1, -1), (-1, 1, -1), (-1, -1, 1))]
+    places, sizes = rng.normal(size=(500, 3)), rng.uniform(0.5, 2.0, (500, 3))
+    source = box("statue", (1.0, 1.0, 1.0))
+    made = bridge("scattering").scattered("many", source, places, axes, sizes)
+    bpy.context.scene.collection.objects.link(made)
+    bpy.context.view_layer.update()
+    found = np.array([place for _, place in shown()])
+    assert found[:, :3, 3] == pytest.approx(places, abs=1e-5)
+    assert found[:, :3, :3] == pytest.approx(axes * sizes[:, None], abs=1e-5)
 
 
 def test_the_cameras_see_everything(files):
