@@ -100,6 +100,10 @@ class Element:
     def _hash(self) -> int:
         return hash((self.node, self.key, self.label, self.surface, self.pose, self.solid))
 
+    def __getstate__(self) -> dict[str, Any]:
+        """What another process needs; hashes differ there."""
+        return {name: self.__dict__[name] for name in self.__dataclass_fields__}
+
     @cached_property
     def id(self) -> str:
         """Its name among all elements and polygons: the node's and its key."""

@@ -1,6 +1,8 @@
 """The placement by several examples as an operation: arrays, sifting, its examples, decisions, storage."""
 
+import dataclasses
 import json
+import pickle
 
 import numpy as np
 import pytest
@@ -257,3 +259,11 @@ def test_moving_one_example_evaluates_only_what_depends_on_it():
     # The pots stand on facades, where sills are; the sheds in gardens, where nothing has changed.
     tree.with_node(sill(0.05)).apply(scene)
     assert tree.evaluations.evaluated == before + 2
+
+
+def test_elements_that_come_from_another_process_are_equal_and_carry_nothing_derived():
+    element = applied(sills())[0]
+    assert {element: 1}[element] == 1 and element.id and element.polygon is not None
+    copied = pickle.loads(pickle.dumps(element))
+    assert copied == element and copied.id == element.id
+    assert set(pickle.loads(pickle.dumps(element)).__dict__) == {f.name for f in dataclasses.fields(element)}
