@@ -132,9 +132,11 @@ def operation_steps(
     layouts = yield from within(after_steps(every, links), 0.0, 0.2)
     node = Node(free_id(tree, name or f"{_verb(operation)} {operation.label}"), operation, links)
     after = yield from within(whole_steps(every, [node]), 0.2, 1.0)
-    proposed = [evaluations.proposed.get((node.id, around.name)) for around in every]
-    if not any(p and (isinstance(p, dict) or p[0] or p[1]) for p in proposed):
-        raise InputError(_nothing(operation, layouts))
+    proposed = [p for around in every if (p := evaluations.proposed.get((node.id, around.name)))]
+    if not any(isinstance(p, dict) or p[0] for p in proposed):
+        # Where nothing at all can be done, the first reason is told and nothing is recorded.
+        failed = [sentence for p in proposed if not isinstance(p, dict) for sentence in p[1]]
+        raise InputError(failed[0].removeprefix(f"node {node.id!r}: ") if failed else _nothing(operation, layouts))
     tree = ensure_tree(context.scene)
     made = add_node(tree, node, (), Plane())
     return made, write_whole(context.scene, tree, every, after)

@@ -1,12 +1,14 @@
 """Extrusion, boolean and selection in Blender, and examples drawn on what they make."""
 
 import json
+import subprocess
 from pathlib import Path
 
 import bmesh
 import bpy
 import numpy as np
 import pytest
+from conftest import INSIDE_BLENDER
 from facades import frame, outline, ring
 from flats import activate, box, bridge, engine, face, operations_tree
 from houses import HEIGHT, SIZES, box_of, corners_of, draw, extrude, houses, parcels, place, solids, volume_of, windows
@@ -281,7 +283,13 @@ def test_the_command_and_the_batch_program_build_what_the_sidebar_builds(tmp_pat
     assert bridge("command")._commands
     arguments = ["--quiet", "apply", "--tree", str(tree), "--parcels", str(plan), "--output"]
     assert engine("command_line").main([*arguments, str(tmp_path / "command.blend")]) == 0
-    done = run(batch_command(*arguments, str(tmp_path / "batch.blend")), tmp_path)
+    arguments.append(str(tmp_path / "batch.blend"))
+    if INSIDE_BLENDER:
+        bpy.ops.wm.save_userpref()
+        command = [bpy.app.binary_path, "--background", "--command", "geoanalogy", *arguments]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    else:
+        done = run(batch_command(*arguments), tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
     volumes = []
     for name in ("command.blend", "batch.blend"):

@@ -222,7 +222,11 @@ def test_trees_of_the_same_names_cannot_grow_onto_each_other(tmp_path):
         ("extrude", {"label": "house", "height": 0.0}, "the height is 0; give a positive one"),
         ("extrude", {"label": "house", "height": -2.0}, "the height is -2; give a positive one"),
         ("extrude", {"label": "house", "factor": (0.0, 1.0)}, "the random multiplier goes down to 0"),
-        ("extrude", {"label": "house", "roof": "hip", "walls": 0.2}, "."),
+        (
+            "extrude",
+            {"label": "parcel", "roof": "hip", "walls": 0.2},
+            "is left flat: a room of walls is open above; leave out its roof",
+        ),
         (
             "extrude",
             {"label": "castle"},
