@@ -127,6 +127,7 @@ def real(seed: int = 1) -> Map:
     streets = shapely.union_all(lines)
     plots = joined([shape for label, shape in shapes if label == "plot" and shape.area > 5.0], streets)
     plots = [part for plot in plots for part in divided(plot)]
+    paved = streets.buffer(CARRIAGEWAY + 1.6)  # where the middle of a street touches plots
     near = streets.buffer(NEAR, quad_segs=3)
     drawn = Map(ATTRIBUTION)
     add_streets(drawn, lines, shapely.union_all(plots), rng)
@@ -139,7 +140,7 @@ def real(seed: int = 1) -> Map:
         drawn.add(plot, label="park" if park else "garden", id=f"plot {k + 1}")
         # Some plots of the source lie on each other.
         taken = shapely.union_all([lot.shape for lot in lots])
-        here = [] if park else list(lots_of(plot.difference(taken.buffer(0.05)), streets, str(k)))
+        here = [] if park else list(lots_of(plot.difference(taken.buffer(0.05)).difference(paved), streets, str(k)))
         lots += here
         free = plot.buffer(-2.5).difference(shapely.union_all([lot.shape.buffer(2.5) for lot in here]))
         kind, radius, apart = ("broad-leaved tree", 2.9, 11.0) if park else ("small tree", 1.9, 7.5)

@@ -1,0 +1,231 @@
+"""What a city costs: buildings, operations, processes and workers, by stages, beside the naive route.
+
+    python -m benchmarks city [--full]
+
+Parcels are those of the generated maps, repeated side by side where more are asked for, so that they are equal only as
+often as parcels of a city are. Stages are processor time. The naive route puts a box where each window is as an object
+of its own, cuts it out by a boolean modifier, and remembers nothing.
+"""
+
+from __future__ import annotations
+
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+import geoanalogy as ga
+from geoanalogy.batch import computing
+from geoanalogy.batch.generation import Choices, Job, generate, merged
+from geoanalogy.batch.product import added, together
+from sample_blends.city.maps import HERE
+from sample_blends.houses.plots import TYPES
+
+from .measuring import Table, duration, times
+
+TREES = HERE.parent / "houses"
+MAPS = ("closes", "curves", "grid")
+
+#: Parcels of a tile: enough tiles to share out, however few parcels there are.
+PER_TILE = 6
+
+#: Distance between two copies of the maps, metres.
+APART = 2000.0
+
+
+def parcels(count: int) -> ga.Scene:
+    """So many lots of the generated maps; every copy is turned and sized differently."""
+    lots = [p for name in MAPS for p in ga.read_scene(HERE / f"{name}.geojson").polygons if p.label in TYPES]
+    made: list[ga.Polygon] = []
+    rng = np.random.default_rng(1)
+    for k in range(count):
+        p = lots[k % len(lots)]
+        # The second time round no parcel has the size that it had.
+        size = 1.0 if k < len(lots) else rng.uniform(0.97, 1.03)
+        ring = p.points * size + (APART * (k // len(lots)), APART * (k % len(MAPS)))
+        made.append(ga.Polygon(ring, p.label, f"p{k}", (), None, p.orientation, p.segment_labels))
+    return ga.Scene(made)
+
+
+def tree(operations: int | None = None) -> ga.OperationsTree:
+    """The three recorded types grown together, or the first so many operations of each."""
+    every = [(name, ga.OperationsTree.load(TREES / f"{name}.json")) for name in TYPES]
+    if operations is not None:
+        every = [(name, ga.OperationsTree(one.nodes[: max(operations // 3, 1)])) for name, one in every]
+    return merged(every)
+
+
+def built(whole: ga.OperationsTree, scene: ga.Scene, jobs: int = 1, scheduler: str = "") -> tuple[Job, float, Path]:
+    """A job from nothing, its seconds, and its folder."""
+    computing._worker.cache_clear()
+    folder = Path(tempfile.mkdtemp(prefix="city-"))
+    begin = time.perf_counter()
+    job = generate(whole, scene, folder, Choices(seed=7, jobs=jobs, scheduler=scheduler, per_tile=PER_TILE))
+    return job, time.perf_counter() - begin, folder
+
+
+def facts(job: Job) -> dict[str, float]:
+    """Seconds by stage, and counts."""
+    whole = added(job.facts.values())
+    return {**whole["seconds"], "elements": whole["elements"], "known": whole["known"] / max(whole["surfaces"], 1)}
+
+
+#: Writes the tiles of a folder as a .blend and opens it again; run by a process of its own.
+WRITE = """
+import sys, time, resource, os
+from pathlib import Path
+from geoanalogy.batch.product import Product
+from geoanalogy.blender import buildings
+from geoanalogy.geometry.scene import Scene
+import bpy
+folder = Path(sys.argv[1])
+begin = time.process_time()
+products = [(p.stem, Product.from_bytes(p.read_bytes())) for p in sorted(folder.glob("*.npz"))]
+buildings.write(Scene([]), products, buildings.Results(folder / "city.blend"))
+written = time.process_time() - begin
+memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
+begin = time.process_time()
+bpy.ops.wm.open_mainfile(filepath=str(folder / "city.blend"))
+print("RESULT", written, memory, time.process_time() - begin, os.path.getsize(folder / "city.blend") / 1e6)
+sys.stdout.flush()
+os._exit(0)
+"""
+
+#: Cuts windows out of one wall after the other, as objects and modifiers do.
+NAIVE = """
+import sys, time, os
+import bpy
+bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+count, windows = int(sys.argv[1]), int(sys.argv[2])
+def box(x, y, w, d, h, z=0.0):
+    mesh = bpy.data.meshes.new("box")
+    corners = [(a, b, c) for c in (z, z + h) for b in (y, y + d) for a in (x, x + w)]
+    mesh.from_pydata(corners, [], [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)])
+    made = bpy.data.objects.new("box", mesh)
+    bpy.context.scene.collection.objects.link(made)
+    return made
+begin = time.process_time()
+for k in range(count):
+    house = box(30.0 * k, 0.0, 20.0, 10.0, 10.0)
+    for i in range(windows):
+        hole = box(30.0 * k + 1 + 1.8 * (i % 10), -0.2, 1.0, 0.5, 1.5, 1.0 + 2.0 * (i // 10 % 4))
+        cut = house.modifiers.new("window", "BOOLEAN")
+        cut.operation, cut.object = "DIFFERENCE", hole
+        hole.hide_render = True
+bpy.context.evaluated_depsgraph_get().update()
+print("RESULT", time.process_time() - begin)
+sys.stdout.flush()
+os._exit(0)
+"""
+
+
+def in_blender(program: str, *arguments: object) -> list[float] | None:
+    """The figures that a program prints, run in a process that has the bpy module; None where there is none."""
+    command = [sys.executable, "-c", program, *map(str, arguments)]
+    done = subprocess.run(command, cwd=HERE.parent.parent, capture_output=True, text=True, check=False)
+    lines = [line for line in done.stdout.splitlines() if line.startswith("RESULT")]
+    return [float(v) for v in lines[-1].split()[1:]] if lines else None
+
+
+def buildings(full: bool) -> Table:
+    """From ten buildings on."""
+    rows = []
+    counts = (10, 30, 100, 1000, 10_000) if full else (10, 30)
+    whole = tree()
+    for count in counts:
+        job, _, folder = built(whole, parcels(count))
+        found = facts(job)
+        memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
+        written = in_blender(WRITE, folder)
+        blend = ("no bpy module",) * 4
+        if written is not None:
+            blend = (duration(written[0]), duration(written[2]), f"{written[3]:.1f} MB", f"{written[1]:.0f} MB")
+        rows.append(
+            (
+                count,
+                found["elements"],
+                duration(found["all"]),
+                f"{1e3 * found['all'] / count:.0f} ms",
+                duration(found.get("placement", 0.0)),
+                duration(found.get("extrusion", 0.0)),
+                duration(found.get("boolean", 0.0)),
+                f"{found['known']:.0%}",
+                f"{memory:.0f} MB",
+                *blend,
+            )
+        )
+    header = ("buildings", "elements", "built", "a building", "place", "extrude", "boolean", "known surfaces", "memory")
+    note = (
+        f"{len(whole.nodes)} operations, about 60 on each building. By one process. What bounds it is placing, on "
+        "surfaces that no equal one was before. The aim: 1 000 buildings by 45 operations in 120 s and 4 GB, a file of "
+        "100 MB."
+    )
+    return Table("Buildings", (*header, "written", "opened", "file", "memory to write"), rows, note)
+
+
+def operations(full: bool) -> Table:
+    """From ten operations on."""
+    scene = parcels(100 if full else 12)
+    rows = []
+    for count in (9, 30, 90, 178):
+        found = facts(built(tree(count), scene)[0])
+        rows.append((count, found["elements"], duration(found["all"]), f"{1e3 * found['all'] / count:.0f} ms"))
+    title = f"Operations, on {len(scene)} buildings of three types"
+    return Table(title, ("operations", "elements", "built", "an operation"), rows)
+
+
+def processes(full: bool) -> Table:
+    """One and two, and what they make."""
+    scene, whole = parcels(200 if full else 24), tree()
+    rows, taken, first = [], 0.0, None
+    for jobs in (1, 2):
+        job, seconds, _ = built(whole, scene, jobs)
+        content = together(product for _, product in job.products()).content()
+        taken, first = taken or seconds, first or content
+        rows.append((jobs, duration(seconds), times(taken, seconds), "yes" if content == first else "NO"))
+    note = f"{len(scene)} buildings, by the clock, starting included. The aim: two at least 1.6 times as fast as one."
+    return Table("Processes", ("processes", "time", "faster", "the same result"), rows, note)
+
+
+def workers(full: bool) -> Table | None:
+    """One, two and four of a local Dask cluster."""
+    try:
+        import distributed
+    except ImportError:
+        return None
+    scene, whole = parcels(200 if full else 24), tree()
+    rows, taken, first = [], 0.0, None
+    for count in (1, 2, 4):
+        with distributed.LocalCluster(count, threads_per_worker=1, dashboard_address=None) as cluster:
+            job, seconds, _ = built(whole, scene, 1, cluster.scheduler_address)
+        content = together(product for _, product in job.products()).content()
+        taken, first = taken or seconds, first or content
+        rows.append((count, duration(seconds), times(taken, seconds), "yes" if content == first else "NO"))
+    note = f"{len(scene)} buildings; more workers than processors gain nothing."
+    return Table("Workers of a Dask cluster", ("workers", "time", "faster", "the same result"), rows, note)
+
+
+def naive(full: bool) -> Table:
+    """An object a window, a modifier a boolean."""
+    rows = []
+    for count in (1, 2, 5, 10) if full else (1, 2):
+        taken = in_blender(NAIVE, count, 40)
+        rows.append((count, 40 * count, "no bpy module" if taken is None else duration(taken[0])))
+    note = "Windows alone, 40 a building, without bars and sills, and with their places given."
+    return Table("The naive route", ("buildings", "windows", "time"), rows, note)
+
+
+def tables(full: bool = False) -> Iterator[Table]:
+    """Buildings, operations, processes, workers, then the naive route."""
+    yield buildings(full)
+    yield operations(full)
+    yield processes(full)
+    found = workers(full)
+    if found is not None:
+        yield found
+    yield naive(full)
