@@ -27,20 +27,21 @@ NEAR, ASKEW = 0.03, 0.4
 STRAIN = 0.45
 #: Mean squared difference of turn (square radians), and distance, at which the agreement is 1/2.
 TURN, DISTANCE = 0.012, 0.006
-#: Exponents of the factors: how much each says about a match being the right one (logistic regression on bent shapes
-#: among clutter, `benchmarks/regions_calibration.py`), over the one number that makes similarities spread over 0 to 1.
+#: Exponents of the factors: how much each says about a match being the right one (logistic regression on the bent
+#: shapes of `benchmarks/regions_quality.py`, each half judged by the weights of the other), over the one number that
+#: makes similarities spread over 0 to 1.
 EXPONENTS = {
-    "coverage": 0.11,
-    "smooth": 0.76,
-    "course": 0.34,
-    "near": 0.53,
-    "own": 0.34,
-    "whole": 1.28,
-    "chained": 1.96,
-    "corners": 1.44,
-    "aligned": 0.37,
-    "turns": 1.55,
-    "unmirrored": 1.5,
+    "coverage": 0.1,
+    "smooth": 1.05,
+    "course": 0.44,
+    "near": 0.79,
+    "own": 0.31,
+    "whole": 1.13,
+    "chained": 1.72,
+    "corners": 1.68,
+    "aligned": 0.29,
+    "turns": 0.73,
+    "unmirrored": 1.2,
 }
 SPREAD = 5.0
 #: Evidence of corners beyond which more of it says no more: three or four times out of a million by chance.
@@ -337,6 +338,7 @@ def _explained(fitter: Fitter, query: Query, fit: Fit, at: NDArray[np.intp]) -> 
 
 
 def _outline(query: Query) -> Complex:
-    """Points along the outline of the query's shape."""
-    xy = shapely.get_coordinates(shapely.get_exterior_ring(query.shape))
+    """Points along the outline of the query's shape, or round its parts."""
+    shape = query.shape if query.shape.geom_type == "Polygon" else query.shape.convex_hull
+    xy = shapely.get_coordinates(shapely.get_exterior_ring(shape))
     return even((xy[:, 0] + 1j * xy[:, 1])[:-1], True, 96)

@@ -49,8 +49,9 @@ class Costs:
     missing: float
 
 
-#: While fitting, lines may end where they were cut; what a fit is worth is measured with gaps that cost more.
-FITTING, MEASURING = Costs(0.35, 1.5, 0.2), Costs(0.35, 1.5, 0.4)
+#: While fitting, lines that were cut should rather end than be stretched, and corners should fall on corners. What a
+#: fit is worth is measured by counterparts that were not chosen to turn alike: then their turns say something.
+FITTING, MEASURING = Costs(0.8, 3.0, 0.15), Costs(0.35, 1.5, 0.4)
 #: Cost of stepping to another line (and the squared distance, in units of FAR, by which the step misses the one of the
 #: image), and of any step at most.
 CHANGE, MOST_COST = 0.15, 4.0

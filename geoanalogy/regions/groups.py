@@ -36,7 +36,7 @@ def groups(target: Target, gap: float) -> list[NDArray[np.intp]]:
     list[NDndarray[np.intp]]
     """
     stride = max(1, int(0.25 * gap / float(np.median(target.spacing))))
-    some = np.arange(0, len(target.points), stride)
+    some = np.flatnonzero(target.place % stride == 0)  # of every line its first point, however short it is
     xy = np.stack([target.points[some].real, target.points[some].imag], 1)
     near = cKDTree(xy).sparse_distance_matrix(cKDTree(xy), gap, output_type="coo_matrix")
     number, part = connected_components(near, directed=False)

@@ -17,15 +17,17 @@ from .courses import Course, lengths
 from .fitting import Fit, Fitter
 from .groups import GAPS, groups
 from .options import RegionOptions
-from .query import Query, Run
+from .query import LEAST_MARKS, Query, Run
 from .transformation import TransformationFunction
 
-#: A query is one of marks where it has so many stretches, and half of its stretches are shorter than this share of it.
-LEAST_MARKS, SHORT = 12, 0.2
+#: A query is one of marks where half of its many stretches are shorter than this share of it.
+SHORT = 0.2
 #: Distance of the points that longer stretches are taken as, in extents of the query, and points in all.
 APART, MOST_POINTS = 0.035, 400
 #: Directions that are tried, groups that they are tried on, and starts that are followed to the end.
 DIRECTIONS, MOST_GROUPS, FOLLOWED = 24, 8, 8
+#: Factor by which a similarity's scale may move from that of its start.
+RESIZED = 1.15
 #: Points that the first rounds look at, of the query and of a group.
 FEW, SOME = 60, 140
 #: Distances over which marks see each other, in extents of the query at the target's scale: while similarities are
@@ -162,29 +164,33 @@ def _moved(
     y = target[near][:: max(1, int(near.sum()) // SOME)]
     if len(y) < 3:
         return []
+    first = np.abs(a)
     for seen in COARSE:
-        goal, weight = _drawn(a[:, None] * x + b[:, None], y, seen * size * np.abs(a))
+        goal, weight = _drawn(a[:, None] * x + b[:, None], y, seen * size * first)
         share = weight / np.maximum(weight.sum(1, keepdims=True), 1e-12)
         cx, cy = (share * x).sum(1), (share * goal).sum(1)
         dx, dy = x - cx[:, None], goal - cy[:, None]
         a = (share * dy * np.conj(dx)).sum(1) / np.maximum((share * np.abs(dx) ** 2).sum(1), 1e-12)
-        a = np.where(np.abs(a) > 1e-6, a, 1e-6)
+        # what sees far is drawn to the middle: sizes would shrink, and what is small sees less and shrinks on
+        grown = np.abs(a) / first
+        way: Complex = np.where(grown > 0.0, a / np.maximum(grown, 1e-9), first.astype(complex))
+        a = way * np.clip(grown, 1.0 / RESIZED, RESIZED)
         b = cy - a * cx
-    _, weight = _drawn(a[:, None] * x + b[:, None], y, COARSE[-1] * size * np.abs(a))
-    return [(float(w), complex(p), complex(q), flip) for w, p, q in zip(weight.mean(1), a, b, strict=True)]
+    _, weight = _drawn(a[:, None] * x + b[:, None], y, COARSE[-1] * size * first)
+    return [
+        (float(w), complex(p), complex(q), flip) for w, p, q in zip(np.minimum(weight, 1.0).mean(1), a, b, strict=True)
+    ]
 
 
 def _drawn(image: Complex, target: Complex, seen: Floats) -> tuple[Complex, Floats]:
-    """Where each image is drawn, and how strongly, (h, n): the average of the marks that it sees.
+    """Where each image is drawn, and how strongly, (h, n): the average of the marks that see it.
 
-    Marks are shared: those that several images see count for each of them in part.
+    Every mark shares itself among the images that it sees. Were it the images that chose, all would be drawn to the
+    middle; so the outermost mark draws the outermost image.
     """
     square = (np.abs(target - image[:, :, None]) / seen[:, None, None]) ** 2
     pull = np.exp(-0.5 * square)
-    alone = np.exp(-0.5 * ALONE)
-    for _ in range(3):
-        pull /= pull.sum(2, keepdims=True) + alone
-        pull /= np.maximum(pull.sum(1, keepdims=True), 1.0)
+    pull /= pull.sum(1, keepdims=True) + np.exp(-0.5 * ALONE)
     weight = pull.sum(2)
     return (pull @ target) / np.maximum(weight, 1e-12), weight
 
@@ -194,7 +200,7 @@ def _bent(fitter: Fitter, source: Complex, target: Complex, a: complex, b: compl
     y = np.conj(target) if flip else target
     rows = fitter.nodes.rows(source)
     m = len(fitter.nodes.at)
-    unknowns = np.concatenate([a * fitter.nodes.at + b, np.full(m, a)])
+    unknowns: Complex = np.concatenate([a * fitter.nodes.at + b, np.full(m, a)])
     for k, seen in enumerate(FINE):
         part = k / (len(FINE) - 1)
         stiffness = tuple(s ** (1 - part) * t**part for s, t in zip(STIFF, SOFT, strict=True))

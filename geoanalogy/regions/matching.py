@@ -136,15 +136,19 @@ class Matches(Sequence[RegionMatch]):
 
 
 def match_regions(
-    drawing: Drawing, query: ArrayLike, options: RegionOptions | None = None, progress: Progress | None = None
+    drawing: Drawing,
+    query: ArrayLike | Sequence[ArrayLike],
+    options: RegionOptions | None = None,
+    progress: Progress | None = None,
 ) -> Matches:
     """Find the regions of a drawing that are similar to a query region or stroke.
 
     Parameters
     ----------
     drawing : Drawing
-    query : (n, 2) array
-        A ring round a region, or an open stroke along a thin shape; scene units.
+    query : (n, 2) array, or sequence of them
+        A ring round a region, or an open stroke along a thin shape; several are a brush, whose parts are one region.
+        Scene units.
     options : RegionOptions, optional
     progress : callable (fraction, text) -> bool, optional
         Returning False cancels.
@@ -164,13 +168,15 @@ def match_regions(
     return run(matching(drawing, query, options), progress)
 
 
-def matching(drawing: Drawing, query: ArrayLike, options: RegionOptions | None = None) -> Stepper[Matches]:
+def matching(
+    drawing: Drawing, query: ArrayLike | Sequence[ArrayLike], options: RegionOptions | None = None
+) -> Stepper[Matches]:
     """The stepper of `match_regions`.
 
     Parameters
     ----------
     drawing : Drawing
-    query : ndarrayLike
+    query : array_like, or sequence of them
     options : RegionOptions or None
 
     Returns

@@ -45,8 +45,8 @@ class RegionOptions:
         Matches that are returned at most.
     """
 
-    threshold: float = 0.34
-    contrast: float = 0.75
+    threshold: float = 0.39
+    contrast: float = 0.65
     query_kind: str = "auto"
     query_points: int = 50
     reach: float = 0.1

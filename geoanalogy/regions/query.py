@@ -1,6 +1,8 @@
 """The query: the region or stroke that a user selected, the lines in it, and its query points (section 3.4)."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import shapely
@@ -16,6 +18,9 @@ from ..tolerances import (
     UNCLOSED_EDGES,
 )
 from .options import RegionOptions
+
+#: Stretches of line from which on their places say something, however straight they are.
+LEAST_MARKS = 12
 
 
 @dataclass(frozen=True)
@@ -65,14 +70,15 @@ class Query:
     size: float
 
     @classmethod
-    def of(cls, drawing: Drawing, query: ArrayLike, options: RegionOptions) -> "Query":
+    def of(cls, drawing: Drawing, query: ArrayLike | Sequence[ArrayLike], options: RegionOptions) -> "Query":
         """Read a query.
 
         Parameters
         ----------
         drawing : Drawing
-        query : (n, 2) array
-            A ring (with or without its first point repeated) or an open stroke, in scene units.
+        query : (n, 2) array, or sequence of them
+            A ring (with or without its first point repeated) or an open stroke, in scene units; several are a brush:
+            everything that lies in one of the rings or within reach of one of the strokes.
         options : RegionOptions
             `query_kind`, `query_points` and `reach` are used.
 
@@ -81,13 +87,17 @@ class Query:
         InputError
             When the query is no ring or stroke, crosses itself, holds no line of the drawing or only straight ones.
         """
-        z = _polyline(drawing, query)
-        ring = _is_ring(z, options.query_kind)
-        if ring:
-            shape = _region(z)
-        else:
-            line = shapely.linestrings(np.stack([z.real, z.imag], 1))
-            shape = line.buffer(options.reach * line.length)
+        strokes = [_polyline(drawing, part) for part in parts_of(query)]
+        rings = [_is_ring(z, options.query_kind) for z in strokes]
+        longest = max(float(np.abs(np.diff(z)).sum()) for z in strokes)
+        shape = shapely.union_all(
+            [
+                _region(z)
+                if ring
+                else shapely.linestrings(np.stack([z.real, z.imag], 1)).buffer(options.reach * longest)
+                for z, ring in zip(strokes, rings, strict=True)
+            ]
+        )
         shapely.prepare(shape)
         contours = drawing.contours
         inside = _covered(shape, contours.drawn)
@@ -95,18 +105,35 @@ class Query:
             raise InputError("No line of the drawing lies in the query: draw the query round the lines to be matched.")
         runs, rest = _runs(drawing, inside)
         turn = sum(float(np.abs(np.diff(contours.heading[run.indices])).sum()) for run in runs)
-        if turn < LEAST_QUERY_TURN:
+        if turn < LEAST_QUERY_TURN and len(runs) < LEAST_MARKS:
             raise InputError(
                 "The lines in the query are straight and match everywhere: include a bend or a corner in the query."
             )
-        if ring:
-            points, spacing = _grid(shape, options.query_points)
+        if rings[0] or len(strokes) > 1:
+            points, spacing = _grids(shape, options.query_points)
         else:
+            z = strokes[0]
             closed = z[0] == z[-1]
             points = even(z[:-1] if closed else z, bool(closed), options.query_points)
             spacing = float(np.abs(np.diff(points)).mean())
         _, size = surrounding_circle(np.concatenate([contours.points[inside], points]))
         return cls(shape, inside, runs, rest, points, spacing, size)
+
+
+def parts_of(query: ArrayLike | Sequence[ArrayLike]) -> list[Any]:
+    """The rings and strokes of a query: one, or several of a brush.
+
+    Parameters
+    ----------
+    query : (n, 2) array, or sequence of them
+
+    Returns
+    -------
+    list of array_like
+    """
+    if isinstance(query, list | tuple) and len(query) and np.ndim(query[0]) == 2:
+        return list(query)
+    return list(query) if isinstance(query, np.ndarray) and query.ndim == 3 and len(query) else [query]
 
 
 def _polyline(drawing: Drawing, query: ArrayLike) -> Complex:
@@ -178,6 +205,13 @@ def _runs(drawing: Drawing, inside: NDArray[np.bool_]) -> tuple[list[Run], list[
     for some in found:
         some.sort(key=lambda run: -round(float(length[run.indices].sum()), 9))
     return found
+
+
+def _grids(shape: shapely.Geometry, count: int) -> tuple[Complex, float]:
+    """Query points of a region of one or several parts, each with as many as its area says."""
+    parts = shapely.get_parts(shape)
+    found = [_grid(part, max(4, round(count * part.area / shape.area))) for part in parts]
+    return np.concatenate([z for z, _ in found]), float(np.mean([spacing for _, spacing in found]))
 
 
 def _grid(shape: shapely.Geometry, count: int) -> tuple[Complex, float]:

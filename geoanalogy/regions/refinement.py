@@ -152,7 +152,7 @@ def modes(image: Complex, factor: Complex, weight: Floats, size: float) -> tuple
             alive &= apart[i]
             if len(seeds) == MOST_MODES:
                 break
-    at = space[:, seeds]
+    at: NDArray = space[:, seeds]
     for _ in range(SHIFTS):
         pull = np.exp(-0.5 * _squares(at, np.exp(-at[2] * SCALE) / (TRANSLATION * size), space)) * weight
         at = (pull @ space.T / pull.sum(1)[:, None]).T
