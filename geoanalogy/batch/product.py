@@ -298,9 +298,12 @@ def together(products: Iterable[Product]) -> Product:
         _starts([n for one in m for n in np.diff(one.face_start).tolist()]),
         *([text for one in m for text in getattr(one, name)] for name in ("names", "labels", "parcels")),
     )
-    shapes = {"places": (0, 4, 4), "scales": (0, 3), "low": (0, 3), "size": (0, 3)}
+    nothing = np.zeros((0, 3))
     placed = Placed(
-        *(np.concatenate([np.zeros(shape), *(getattr(one, name) for one in p)]) for name, shape in shapes.items()),
+        np.concatenate([np.zeros((0, 4, 4)), *(one.places for one in p)]),
+        np.concatenate([nothing, *(one.scales for one in p)]),
+        np.concatenate([nothing, *(one.low for one in p)]),
+        np.concatenate([nothing, *(one.size for one in p)]),
         *([text for one in p for text in getattr(one, name)] for name in ("meshes", "labels", "nodes", "keys")),
     )
     return Product(masses, placed, added([g.facts for g in given]))
