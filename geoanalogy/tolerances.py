@@ -141,11 +141,12 @@ SAME_POLYGON = 1e-4
 #: about: a replay after a wall was moved shifts results a little; of several, the nearest is meant.
 SAME_RESULT = 0.05
 
-#: Mean width, in scene units, of the thinnest parcel that anything is built on: thinner is what is left between borders.
+#: Mean width, in scene units, of the thinnest parcel that anything is built on: thinner is what borders leave between
+#: them.
 THINNEST_PARCEL = 0.5
 
-#: Width, in units of its file, that the largest polygon of a map has at least, unless the unit is the degree: a hundredth
-#: of a degree is a kilometre.
+#: Width, in units of its file, that the largest polygon of a map has at least, unless the unit is the degree: a
+#: hundredth of a degree is a kilometre.
 SMALLEST_MAP = 0.05
 
 #: Vertices that a parcel may have: cadastral ones have tens, and what is drawn finer costs time and adds nothing.
