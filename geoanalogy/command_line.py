@@ -146,7 +146,7 @@ def _replay(arguments: argparse.Namespace, progress: ProgressLines) -> str:
     )
     _check_written(results, before)
     made = f"{report.operations} operations replayed, {report.objects} objects made"
-    return "\n".join([made, *(f"wrote {path}" for path in results)])
+    return "\n".join([made, *report.problems, *(f"wrote {path}" for path in results)])
 
 
 def _apply(arguments: argparse.Namespace, progress: ProgressLines) -> str:
