@@ -190,7 +190,7 @@ def bodies(r: KitchenRecorder, plan: Plan) -> None:
         wall, along = plan.side
         r.place("side run", wall, along, 4, max_per={wall: 1})
         r.attach("side run", DEPTH, top="side front", side="side run")
-    r.fit("dishwasher", front, plan.dishwasher)
+    r.fit("dishwasher front", front, plan.dishwasher)
     if plan.side:
         doors(r, "cabinet door", front, ("dishwasher",), (int(plan.dishwasher is dishwasher_left),))
 
@@ -213,14 +213,14 @@ def fronts(r: KitchenRecorder) -> None:
     r.fit("oven", "single front", oven_at(after(AT_FRIDGE)))
     doors(r, "drawers", "side front", ("oven",), (0, 1))
     doors(r, "cabinet door", "single front", ("oven", "dishwasher"), (1, 2))
-    r.fit("fridge", "tall front", fridge_front, 3)
+    r.fit("fridge doors", "tall front", fridge_front, 3)
 
 
 def worktops(r: KitchenRecorder) -> None:
     """What is built into worktops and stands on them; on a worktop, x runs to the left of who faces the wall."""
-    r.fit("sink", "back worktop", lying("sink", centre, 0.08))
+    r.fit("inset sink", "back worktop", lying("inset sink", centre, 0.08))
     r.fit("hob", "side worktop", lying("hob", centre, 0.07))
-    r.fit("sink", "single worktop", lying("sink", after(AT_END), 0.08))
+    r.fit("inset sink", "single worktop", lying("inset sink", after(AT_END), 0.08))
     r.fit("hob", "single worktop", lying("hob", ahead_of(AT_FRIDGE), 0.07))
     r.fit("kettle", "back worktop", next_to("kettle", "sink", 0.15, 0.1, 0.1))
     r.fit("bread board", "side worktop", next_to("bread board", "hob", 0.2, 0.2, 0.1))

@@ -136,8 +136,8 @@ def oven(width: float, height: float) -> list[Solid]:
     ]
 
 
-@fitting("dishwasher", 0.6, 0.74)
-def dishwasher(width: float, height: float) -> list[Solid]:
+@fitting("dishwasher front", 0.6, 0.74, "dishwasher")
+def dishwasher_front(width: float, height: float) -> list[Solid]:
     """The front of a dishwasher."""
     x, y = width / 2 - 0.003, height / 2 - 0.003
     return [
@@ -148,8 +148,8 @@ def dishwasher(width: float, height: float) -> list[Solid]:
     ]
 
 
-@fitting("fridge", 0.64, 2.0)
-def fridge(width: float, height: float) -> list[Solid]:
+@fitting("fridge doors", 0.64, 2.0, "fridge")
+def fridge_doors(width: float, height: float) -> list[Solid]:
     """The doors of a fridge over those of a freezer."""
     x, y = width / 2 - 0.004, height / 2 - 0.004
     split = -y + 0.34 * height
@@ -185,8 +185,8 @@ def flat_hood(width: float, height: float) -> list[Solid]:
     ]
 
 
-@fitting("sink", 0.84, 0.46)
-def sink(width: float, height: float) -> list[Solid]:
+@fitting("inset sink", 0.84, 0.46, "sink")
+def inset_sink(width: float, height: float) -> list[Solid]:
     """A basin with a drainer and a tap, on a worktop."""
     x, y = width / 2, height / 2
     tap = [
@@ -256,38 +256,6 @@ def bread_board(width: float, height: float) -> list[Solid]:
     return [_panel(-width / 2, -height / 2, width / 2, height / 2, 0.02, "birch", bevel=0.006), loaf]
 
 
-@fitting("herbs", 0.5, 0.12)
-def herbs(width: float, height: float) -> list[Solid]:
-    """Three pots of herbs in a row."""
-    made: list[Solid] = []
-    for x in (-0.17, 0.0, 0.17):
-        made.append(cylinder(0.045, 0.09, (x, 0.0, 0.0), "terracotta", 0.004, 14, top=0.055))
-        made.append(ellipsoid((0.075, 0.065, 0.07), (x, 0.0, 0.14), "leaf", 10, 7))
-    return made
-
-
-@fitting("shelf", 0.9, 0.34)
-def shelf(width: float, height: float) -> list[Solid]:
-    """A board on brackets, with plates, cups and a bowl."""
-    foot = -height / 2
-    made = [_panel(-width / 2, foot, width / 2, foot + 0.03, 0.24, "oak")]
-    made += [
-        _panel(x, foot - 0.1, x + 0.03, foot, 0.18, "black metal", bevel=0.0)
-        for x in (-width / 2 + 0.08, width / 2 - 0.11)
-    ]
-    for i in range(4):
-        made.append(
-            cylinder(0.1, 0.014, (0.0, 0.0, 0.0), "porcelain", sides=20)
-            .turned(-90, "x")
-            .moved(-0.26, foot + 0.03 + 0.018 * i, 0.12)
-        )
-    for x in (-0.02, 0.1, 0.22):
-        made.append(
-            cylinder(0.04, 0.09, (0.0, 0.0, 0.0), "coat blue", 0.006, 14).turned(-90, "x").moved(x, foot + 0.03, 0.12)
-        )
-    return made
-
-
 @fitting("clock", 0.3, 0.3)
 def clock(width: float, height: float) -> list[Solid]:
     """A round clock at ten past ten."""
@@ -318,25 +286,6 @@ def radiator(width: float, height: float) -> list[Solid]:
             0.01,
         )
         for i in range(count)
-    ]
-
-
-@fitting("picture", 0.6, 0.45)
-def picture(width: float, height: float) -> list[Solid]:
-    """A framed picture of fruit."""
-    x, y = width / 2, height / 2
-    fruit = [
-        ellipsoid((r, r, 0.004), (u, v, 0.026), finish)
-        for u, v, r, finish in (
-            (-0.08, -0.02, 0.07, "book red"),
-            (0.06, -0.04, 0.06, "book yellow"),
-            (0.0, 0.06, 0.055, "book red"),
-        )
-    ]
-    return [
-        _panel(-x, -y, x, y, 0.02, "walnut"),
-        _panel(-x + 0.04, -y + 0.04, x - 0.04, y - 0.04, 0.024, "linen", 0.02, 0.0),
-        *fruit,
     ]
 
 

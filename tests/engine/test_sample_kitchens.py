@@ -192,6 +192,10 @@ def test_the_tree_is_plain_and_complete(tree):
     assert (KITCHENS / "kitchens.json").stat().st_size <= 1_500_000
 
 
+def test_no_fitting_takes_the_name_of_an_asset_of_the_same_library():
+    assert set(FITTINGS).isdisjoint(ASSETS)
+
+
 def test_fittings_lie_on_their_surface_and_fill_their_place():
     for name, fitting in FITTINGS.items():
         vertices = fitting.solid().vertices
