@@ -162,7 +162,7 @@ def picture() -> Picture:
                 warps[0](ring),
                 lambda p: wings(home(p)),
                 [then(home, w) for w in warps[1:]],
-                threshold=0.15,
+                threshold=0.125,
             )
         ],
         garden,

@@ -179,7 +179,7 @@ def picture() -> Picture:
                 lambda p, home=home, paint=paint: paint(home(p)),
                 [then(home, w) for w in places[1:]],
                 pixels=320,
-                threshold=0.5,
+                threshold=0.4,
             )
         )
     return Picture("sun", "3.7i", strokes, edits, sky, (0.0, 0.0), (16.0, 10.0))

@@ -92,11 +92,14 @@ def errors(mapping: Warp, truth: Warp, at: Array) -> Array:
 
 def measure(picture: Picture, edit: Edit) -> Row:
     """Match an edit of a picture, and compare with what is known."""
-    lines = picture.polylines
-    drawing = ga.Drawing(lines)
+    drawing = ga.Drawing(picture.polylines)
     started = time.process_time()
     matches = ga.match_regions(drawing, edit.query, options_of(edit))
-    seconds = time.process_time() - started
+    return compared(picture, edit, drawing, matches, time.process_time() - started)
+
+
+def compared(picture: Picture, edit: Edit, drawing: ga.Drawing, matches: ga.Matches, seconds: float) -> Row:
+    """What was found beside what is known."""
     if edit.threshold is not None:
         matches = matches.above(edit.threshold)
     at = probes(edit)
@@ -107,7 +110,7 @@ def measure(picture: Picture, edit: Edit) -> Row:
     hits = best < FOUND
     false = int((off.min(axis=1, initial=np.inf) >= FOUND).sum())
     space = transformation_space(drawing, matches)
-    lies = inliers(space, edit.truth, float(np.linalg.norm(np.ptp(np.vstack(lines), axis=0))))
+    lies = inliers(space, edit.truth, float(np.linalg.norm(np.ptp(np.vstack(picture.polylines), axis=0))))
     total = max(float(space.magnitude.sum()), 1e-12)
     return Row(
         picture.name,
