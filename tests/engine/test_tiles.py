@@ -1,8 +1,10 @@
 """Jobs in tiles: the same result whoever builds what, stopping and going on, failures, levels of detail."""
 
+import errno
 import json
 import os
 import signal
+from pathlib import Path
 
 import pytest
 from shapes import rectangle
@@ -14,6 +16,7 @@ from geoanalogy.batch.generation import Choices, Stopped, generate, merged, rema
 from geoanalogy.batch.manifest import SCHEMA, manifest
 from geoanalogy.batch.product import Product, together
 from geoanalogy.batch.release import digest, version
+from geoanalogy.batch.store import Store
 from geoanalogy.batch.tiles import divide, read_scene_text, scene_text, units_of, wanted_labels
 from geoanalogy.geometry.extrusion import FaceLabels
 from geoanalogy.operations.boolean import Boolean
@@ -98,6 +101,22 @@ def test_a_damaged_tile_is_built_again(tmp_path):
     damaged.unlink()
     with pytest.raises(InputError, match="tile 001 is no longer in"):
         contents(again)
+
+
+def test_a_full_disk_leaves_what_was_there(tmp_path, monkeypatch):
+    store = Store(tmp_path)
+    store.keep("a", b"earlier")
+
+    def full(path, content):
+        path.touch()
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    with pytest.raises(OSError, match="No space left on device"):
+        store.keep("a", b"later")
+    assert [(path.name, path.read_bytes()) for path in tmp_path.iterdir()] == [("a.npz", b"earlier")]
+    with pytest.raises(OSError, match="No space left on device"):
+        built(plots(), tmp_path, Choices())
 
 
 def test_single_tiles_are_built_apart(tmp_path):
