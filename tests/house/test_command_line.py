@@ -23,7 +23,7 @@ def replay(monkeypatch, tmp_path):
     def replay_file(source, **options):
         calls.append((source, options))
         record.action(options)
-        return SimpleNamespace(operations=3, objects=17)
+        return SimpleNamespace(operations=3, objects=17, problems=("the library lacks a door",))
 
     def write(options):
         for key in ("output", "render"):
@@ -57,6 +57,7 @@ def test_a_replay_says_what_it_made_and_where(replay, tmp_path, capsys):
     said = capsys.readouterr()
     assert said.out.splitlines() == [
         "3 operations replayed, 17 objects made",
+        "the library lacks a door",
         f"wrote {tmp_path / 'out.blend'}",
         f"wrote {tmp_path / 'out.png'}",
     ]
