@@ -20,9 +20,9 @@ from .options import RegionOptions
 from .query import LEAST_MARKS, Query, Run
 from .transformation import TransformationFunction
 
-#: A query is one of marks where half of its many stretches are shorter than this share of it, and none is half of all
-#: line: a snake with a pattern on its back has an outline.
-SHORT, MAIN = 0.2, 0.5
+#: A query is one of marks where half of its many stretches are shorter than the first share of its extent, and none is
+#: as long as the second: what has an outline has a line about as long as itself, whatever pattern is on its back.
+SHORT, MAIN = 0.2, 0.85
 #: Distance of the points that longer stretches are taken as, in extents of the query, and points in all.
 APART, MOST_POINTS = 0.035, 400
 #: Directions that are tried, groups that they are tried on, and starts that are followed to the end.
@@ -76,8 +76,7 @@ def of_marks(contours: Contours, query: Query) -> bool:
     bool
     """
     own = lengths(contours, query.runs)
-    short = float(np.median(own)) < SHORT * query.size
-    return len(own) >= LEAST_MARKS and short and float(own.max()) < MAIN * float(own.sum())
+    return len(own) >= LEAST_MARKS and bool(np.median(own) < SHORT * query.size and own.max() < MAIN * query.size)
 
 
 def places(contours: Contours, runs: list[Run], size: float) -> Complex:
