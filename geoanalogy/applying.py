@@ -117,7 +117,7 @@ def apply(arguments: argparse.Namespace, progress: Progress) -> str:
     meshes_only = arguments.output is not None and arguments.output.suffix.lower() == ".obj"
     drawn = [path for path in results if not (meshes_only and path == arguments.output)]
     if drawn:  # before the long work, in case there is no Blender
-        from .blender import buildings
+        from .blender.writing import buildings
     trees = [(path, OperationsTree.load(path)) for path in arguments.tree]
     tree = merged([(path.stem, recorded) for path, recorded in trees])
     scene, problems = read(arguments, tree)

@@ -133,7 +133,7 @@ def _replay(arguments: argparse.Namespace, progress: ProgressLines) -> str:
     if not results:
         raise argparse.ArgumentTypeError("replay needs --output, --render or both: it would do nothing")
     _check_writable(results)
-    from .blender.replay import replay_file
+    from .blender.tree.replay import replay_file
 
     before = [_last_written(path) for path in results]
     report = replay_file(

@@ -2,8 +2,8 @@
 
 import bpy
 
-from ..geoanalogy.blender.corrections import decide, selected_results
-from ..geoanalogy.blender.region_decisions import decide_on_regions
+from ..geoanalogy.blender.regions.decisions import decide_on_regions
+from ..geoanalogy.blender.tree.corrections import decide, selected_results
 from .edit import Edit, needs_operations
 
 

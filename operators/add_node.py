@@ -4,7 +4,7 @@ import bpy
 from bpy.props import EnumProperty, StringProperty
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.new_nodes import KINDS, new_node
+from ..geoanalogy.blender.tree.new_nodes import KINDS, new_node
 from .edit import Edit
 
 

@@ -3,7 +3,7 @@
 import bpy
 from bpy.props import EnumProperty
 
-from ..geoanalogy.blender.parcels import apply_steps, selected_parcels
+from ..geoanalogy.blender.tree.parcels import apply_steps, selected_parcels
 from .edit import LongEdit, needs_operations
 
 PARCELS = [

@@ -4,7 +4,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.recording import THRESHOLD, array_steps
+from ..geoanalogy.blender.tree.recording import THRESHOLD, array_steps
 from ..geoanalogy.errors import InputError
 from ..geoanalogy.poses.arrays import ArrayOptions
 from .edit import LongEdit, needs_active_object, selected_active

@@ -3,9 +3,9 @@
 import bpy
 from bpy.props import EnumProperty, IntProperty
 
-from ..geoanalogy.blender.building import chosen_text
-from ..geoanalogy.blender.tree_editing import build_on, open_outputs
-from ..geoanalogy.blender.tree_store import ordered_nodes, tree_of
+from ..geoanalogy.blender.tree.building import chosen_text
+from ..geoanalogy.blender.tree.editing import build_on, open_outputs
+from ..geoanalogy.blender.tree.store import ordered_nodes, tree_of
 from ..geoanalogy.errors import InputError
 from ..geoanalogy.operations.node import Link
 from .edit import Edit, active_operation, needs_operations

@@ -3,8 +3,8 @@
 import bpy
 from bpy.props import BoolProperty
 
-from ..geoanalogy.blender.region_recording import carry_steps
-from ..geoanalogy.blender.region_results import uncertain_results
+from ..geoanalogy.blender.regions.recording import carry_steps
+from ..geoanalogy.blender.regions.results import uncertain_results
 from .edit import LongEdit, active_operation, needs_operations
 
 

@@ -4,7 +4,7 @@ import bpy
 from bpy.props import FloatProperty, IntProperty, StringProperty
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.recording import THRESHOLD, choice_steps
+from ..geoanalogy.blender.tree.recording import THRESHOLD, choice_steps
 from .edit import LongEdit, needs_object_mode
 from .pose_settings import PoseSettings
 

@@ -3,9 +3,9 @@
 import bpy
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.instances import clear_results
-from ..geoanalogy.blender.masses import clear_masses
-from ..geoanalogy.blender.tree_store import recorded_nodes, tree_of
+from ..geoanalogy.blender.tree.store import recorded_nodes, tree_of
+from ..geoanalogy.blender.writing.instances import clear_results
+from ..geoanalogy.blender.writing.masses import clear_masses
 from .edit import Edit, needs_operations
 
 

@@ -3,8 +3,8 @@
 import bpy
 from bpy.props import EnumProperty, StringProperty
 
-from ..geoanalogy.blender.building import label_here, operation_steps
-from ..geoanalogy.blender.node_settings import KINDS, TARGETS
+from ..geoanalogy.blender.tree.building import label_here, operation_steps
+from ..geoanalogy.blender.tree.node_settings import KINDS, TARGETS
 from ..geoanalogy.operations.boolean import Boolean
 from .edit import LongEdit, needs_operations
 

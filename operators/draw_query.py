@@ -4,9 +4,9 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, StringProperty
 from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
 
-from ..geoanalogy.blender.region_drawing import read_drawn_lines
-from ..geoanalogy.blender.region_queries import add_query
-from ..geoanalogy.blender.region_sketch import QueryOverlay, QuerySketch
+from ..geoanalogy.blender.regions.drawings import read_drawn_lines
+from ..geoanalogy.blender.regions.queries import add_query
+from ..geoanalogy.blender.regions.sketch import QueryOverlay, QuerySketch
 from ..geoanalogy.errors import InputError
 from .edit import Edit, needs_object_mode
 

@@ -5,7 +5,7 @@ from collections.abc import Generator
 import bpy
 
 from ..geoanalogy.blender.jobs import Job
-from ..geoanalogy.blender.tree_store import recorded_nodes, tree_of
+from ..geoanalogy.blender.tree.store import recorded_nodes, tree_of
 from ..geoanalogy.errors import InputError
 from ..geoanalogy.progress import run
 

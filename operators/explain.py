@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..geoanalogy.blender.explanation import explain
+from ..geoanalogy.blender.tree.explanation import explain
 from .edit import Edit, needs_operations
 
 

@@ -6,7 +6,7 @@ import bpy
 from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from ..geoanalogy.blender.tree_files import export_tree
+from ..geoanalogy.blender.tree.files import export_tree
 from .edit import Edit, needs_operations
 
 

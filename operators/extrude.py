@@ -3,8 +3,8 @@
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, StringProperty
 
-from ..geoanalogy.blender.building import extrusion_of, label_here, operation_steps
-from ..geoanalogy.blender.node_settings import ROOFS
+from ..geoanalogy.blender.tree.building import extrusion_of, label_here, operation_steps
+from ..geoanalogy.blender.tree.node_settings import ROOFS
 from ..geoanalogy.geometry.extrusion import FaceLabels
 from ..geoanalogy.geometry.roof import Roof
 from .edit import LongEdit, needs_object_mode

@@ -4,8 +4,8 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.region_recording import region_steps
-from ..geoanalogy.blender.region_results import uncertain_results
+from ..geoanalogy.blender.regions.recording import region_steps
+from ..geoanalogy.blender.regions.results import uncertain_results
 from ..geoanalogy.regions.options import RegionOptions
 from .edit import LongEdit, needs_object_mode
 

@@ -2,9 +2,9 @@
 
 import bpy
 
-from ..geoanalogy.blender.placement_recording import forgotten_steps
-from ..geoanalogy.blender.region_decisions import forget_regions
-from ..geoanalogy.blender.tree_store import works_on_drawings
+from ..geoanalogy.blender.regions.decisions import forget_regions
+from ..geoanalogy.blender.tree.placement_recording import forgotten_steps
+from ..geoanalogy.blender.tree.store import works_on_drawings
 from .edit import LongEdit, active_operation, needs_operations
 
 

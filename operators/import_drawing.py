@@ -4,7 +4,7 @@ import bpy
 from bpy.props import FloatProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from ..geoanalogy.blender.region_drawing import add_lines
+from ..geoanalogy.blender.regions.drawings import add_lines
 from ..geoanalogy.formats.files import read_drawing
 from .edit import Edit, needs_object_mode
 

@@ -6,10 +6,10 @@ import bpy
 from bpy.props import BoolProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from ..geoanalogy.blender.evaluating import mark_stale
-from ..geoanalogy.blender.tree_editing import chosen_outputs
-from ..geoanalogy.blender.tree_files import graft_tree, import_tree
-from ..geoanalogy.blender.tree_store import ordered_nodes, require_operations
+from ..geoanalogy.blender.tree.editing import chosen_outputs
+from ..geoanalogy.blender.tree.evaluating import mark_stale
+from ..geoanalogy.blender.tree.files import graft_tree, import_tree
+from ..geoanalogy.blender.tree.store import ordered_nodes, require_operations
 from .edit import Edit, needs_object_mode
 
 

@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..geoanalogy.blender.making_real import make_real
+from ..geoanalogy.blender.writing.making_real import make_real
 from .edit import Edit, needs_operations
 
 

@@ -4,8 +4,8 @@ import bpy
 from bpy.props import EnumProperty
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.evaluating import mark_stale
-from ..geoanalogy.blender.tree_editing import follower_of, swap_with_source
+from ..geoanalogy.blender.tree.editing import follower_of, swap_with_source
+from ..geoanalogy.blender.tree.evaluating import mark_stale
 from .edit import Edit, active_operation, needs_operations
 
 

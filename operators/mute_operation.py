@@ -2,10 +2,10 @@
 
 import bpy
 
-from ..geoanalogy.blender.evaluating import mark_stale
-from ..geoanalogy.blender.region_results import show_targets
-from ..geoanalogy.blender.showing import show_again
-from ..geoanalogy.blender.tree_store import builds, works_on_drawings
+from ..geoanalogy.blender.regions.results import show_targets
+from ..geoanalogy.blender.tree.evaluating import mark_stale
+from ..geoanalogy.blender.tree.showing import show_again
+from ..geoanalogy.blender.tree.store import builds, works_on_drawings
 from .edit import Edit, active_operation, needs_operations
 
 

@@ -6,7 +6,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.placement_recording import THRESHOLD, placement_steps
+from ..geoanalogy.blender.tree.placement_recording import THRESHOLD, placement_steps
 from ..geoanalogy.placements.options import PlacementOptions
 from .edit import LongEdit, needs_object_mode
 

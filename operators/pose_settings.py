@@ -4,7 +4,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
 from ..geoanalogy.blender.pairs import read_pairs
-from ..geoanalogy.blender.recording import LEAST_IMPORTANCE
+from ..geoanalogy.blender.tree.recording import LEAST_IMPORTANCE
 from ..geoanalogy.poses.options import PoseOptions
 from ..geoanalogy.relations.table import POSE_RELATIONS
 

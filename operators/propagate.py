@@ -4,7 +4,7 @@ import bpy
 from bpy.props import FloatProperty, IntProperty
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.recording import THRESHOLD, pose_steps
+from ..geoanalogy.blender.tree.recording import THRESHOLD, pose_steps
 from .edit import LongEdit, needs_active_object, selected_active
 from .pose_settings import PoseSettings
 

@@ -2,9 +2,9 @@
 
 import bpy
 
-from ..geoanalogy.blender.corrections import selected_results
-from ..geoanalogy.blender.placement_recording import rejected_steps
-from ..geoanalogy.blender.region_decisions import decide_on_regions
+from ..geoanalogy.blender.regions.decisions import decide_on_regions
+from ..geoanalogy.blender.tree.corrections import selected_results
+from ..geoanalogy.blender.tree.placement_recording import rejected_steps
 from .edit import LongEdit, needs_operations
 
 

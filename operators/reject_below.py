@@ -2,9 +2,9 @@
 
 import bpy
 
-from ..geoanalogy.blender.corrections import reject_below
-from ..geoanalogy.blender.region_decisions import reject_regions_below
-from ..geoanalogy.blender.tree_store import works_on_drawings
+from ..geoanalogy.blender.regions.decisions import reject_regions_below
+from ..geoanalogy.blender.tree.corrections import reject_below
+from ..geoanalogy.blender.tree.store import works_on_drawings
 from .edit import Edit, active_operation, needs_operations
 
 

@@ -2,12 +2,12 @@
 
 import bpy
 
-from ..geoanalogy.blender.evaluating import mark_stale
-from ..geoanalogy.blender.instances import clear_results
-from ..geoanalogy.blender.masses import clear_masses
-from ..geoanalogy.blender.tree_editing import remove_node
-from ..geoanalogy.blender.tree_store import builds, recorded_nodes
-from ..geoanalogy.blender.whole import show_whole
+from ..geoanalogy.blender.tree.editing import remove_node
+from ..geoanalogy.blender.tree.evaluating import mark_stale
+from ..geoanalogy.blender.tree.store import builds, recorded_nodes
+from ..geoanalogy.blender.tree.whole import show_whole
+from ..geoanalogy.blender.writing.instances import clear_results
+from ..geoanalogy.blender.writing.masses import clear_masses
 from .edit import Edit, active_operation, needs_operations
 
 

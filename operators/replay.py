@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..geoanalogy.blender.replay import replay_steps
+from ..geoanalogy.blender.tree.replay import replay_steps
 from .edit import LongEdit, needs_operations
 
 

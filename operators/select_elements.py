@@ -4,8 +4,8 @@ import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.building import label_here, operation_steps
-from ..geoanalogy.blender.node_settings import WITHIN, weights_of
+from ..geoanalogy.blender.tree.building import label_here, operation_steps
+from ..geoanalogy.blender.tree.node_settings import WITHIN, weights_of
 from ..geoanalogy.operations.selection import Selection
 from .edit import LongEdit, needs_object_mode
 

@@ -4,7 +4,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.recording import transfer_steps
+from ..geoanalogy.blender.tree.recording import transfer_steps
 from ..geoanalogy.poses.local_mapping import TransferOptions
 from .edit import LongEdit, needs_object_mode
 

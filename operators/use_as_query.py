@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..geoanalogy.blender.region_queries import use_as_query
+from ..geoanalogy.blender.regions.queries import use_as_query
 from .edit import Edit, needs_object_mode, selected_active
 
 

@@ -2,8 +2,8 @@
 
 import bpy
 
-from ..geoanalogy.blender.building import chosen_text
-from ..geoanalogy.blender.tree_store import tree_of
+from ..geoanalogy.blender.tree.building import chosen_text
+from ..geoanalogy.blender.tree.store import tree_of
 from .base import SidebarPanel, hint
 
 

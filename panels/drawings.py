@@ -3,8 +3,8 @@
 import bpy
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.region_results import uncertain_results
-from ..geoanalogy.blender.tree_store import tree_of, works_on_drawings
+from ..geoanalogy.blender.regions.results import uncertain_results
+from ..geoanalogy.blender.tree.store import tree_of, works_on_drawings
 from .base import SidebarPanel, hint
 
 #: Results that are listed.

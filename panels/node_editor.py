@@ -3,9 +3,9 @@
 import bpy
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.evaluating import evaluations
-from ..geoanalogy.blender.new_nodes import KINDS
-from ..geoanalogy.blender.tree_types import ICONS
+from ..geoanalogy.blender.tree.evaluating import evaluations
+from ..geoanalogy.blender.tree.new_nodes import KINDS
+from ..geoanalogy.blender.tree.node_tree import ICONS
 
 
 def _shows_tree(context: bpy.types.Context) -> bool:

@@ -3,9 +3,9 @@
 import bpy
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.evaluating import parcels_of
-from ..geoanalogy.blender.tree_store import builds, drawing_nodes, ordered_nodes, tree_of
-from ..geoanalogy.blender.tree_types import ICONS
+from ..geoanalogy.blender.tree.evaluating import parcels_of
+from ..geoanalogy.blender.tree.node_tree import ICONS
+from ..geoanalogy.blender.tree.store import builds, drawing_nodes, ordered_nodes, tree_of
 from .base import SidebarPanel, hint
 
 

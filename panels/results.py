@@ -3,10 +3,10 @@
 import bpy
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.explanation import explanation_of
-from ..geoanalogy.blender.learned import novelty_of, rule_of, targets_of
-from ..geoanalogy.blender.node_settings import stored_settings
-from ..geoanalogy.blender.tree_store import operation_nodes, tree_of
+from ..geoanalogy.blender.tree.explanation import explanation_of
+from ..geoanalogy.blender.tree.learned import novelty_of, rule_of, targets_of
+from ..geoanalogy.blender.tree.node_settings import stored_settings
+from ..geoanalogy.blender.tree.store import operation_nodes, tree_of
 from .base import SidebarPanel, hint
 
 #: Relations and polygons that are listed.

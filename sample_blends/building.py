@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 
 from geoanalogy.blender import names
-from geoanalogy.blender.instances import clear_results
+from geoanalogy.blender.writing.instances import clear_results
 from geoanalogy.command_line import leave
 
 from . import stage

@@ -62,7 +62,7 @@ def draw(
     """
     import bpy
 
-    from geoanalogy.blender.buildings import mesh_data
+    from geoanalogy.blender.writing.buildings import mesh_data
 
     from . import stage
     from .library.materials import material

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import bpy
 
-from geoanalogy.blender.drawing import draw_picture
+from geoanalogy.blender.writing.picture import draw_picture
 
 
 def main() -> int:

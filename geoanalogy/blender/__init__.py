@@ -2,16 +2,16 @@
 
 Its modules are imported by `register()`, so that reading this file asks for no Blender.
 
-Reading order: `names`; `planes`, `shapes` and `ground`, from objects to scenes; `footprints`; `tree_types`,
-`tree_store`, `tree_writing` and `tree_editing`, the operations tree in the .blend; `evaluating`, `sites`, `lessons` and
-`recording`, from an example to its results; `instances`, which shows them; `refresh` and `corrections`, which sift
-them; `replay`. `building` records what makes solids, `whole` evaluates trees that have such nodes, `masses` shows them.
-`buildings` writes what a stored tree has built, by `shading` and `outdoors`.
+Reading order: `names`; `reading`, from objects to scenes (`planes`, `shapes`, `ground`, `footprints`, `sites`);
+`tree`, the operations tree in the .blend (`node_tree`, `store`, `editing`), from an example to its results
+(`evaluating`, `lessons`, `recording`), sifting them (`refresh`, `corrections`), `replay`, and trees that make solids
+(`building`, `whole`); `writing`, what is made of results (`instances`, `masses`) and of what a stored tree has built
+(`buildings`); `regions`, the same from drawings for chapter 3.
 """
 
 from .registration import register_in_order, unregister_in_order
 
-MODULES = (".command", ".properties", ".tree_types", ".tree_links", ".showing", ".handlers")
+MODULES = (".command", ".properties", ".tree.node_tree", ".tree.links", ".tree.showing", ".handlers")
 
 
 def register():

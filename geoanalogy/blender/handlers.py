@@ -3,10 +3,10 @@
 import bpy
 from bpy.app.handlers import persistent
 
-from .evaluating import evaluations
-from .explanation import forget_explanations
-from .ground import memory
-from .region_recording import forget_found
+from .reading.ground import memory
+from .regions.recording import forget_found
+from .tree.evaluating import evaluations
+from .tree.explanation import forget_explanations
 
 
 @persistent

@@ -5,7 +5,7 @@ import bpy
 from ..formats.repair import sound_parcels
 from ..geometry.scene import Scene
 from . import register
-from .ground import read_grounds
+from .reading.ground import read_grounds
 
 
 def open_parcels() -> tuple[Scene, list[str]]:

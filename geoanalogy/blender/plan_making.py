@@ -11,10 +11,10 @@ from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from . import names
-from .footprints import hull_of, outline_of, pose_of
-from .ground import read_grounds
-from .planes import Plane, best_plane
-from .shapes import rings_of
+from .reading.footprints import hull_of, outline_of, pose_of
+from .reading.ground import read_grounds
+from .reading.planes import Plane, best_plane
+from .reading.shapes import rings_of
 
 Array = NDArray[np.float64]
 

@@ -14,12 +14,12 @@ from ..geometry.rectangle import Rectangle
 from ..poses.pose import Pose
 from ..progress import run
 from . import names
-from .evaluating import after_steps, read_surroundings
-from .footprints import frame_of
-from .planes import Plane
-from .sites import NEARER, Site, sites_of
-from .tree_editing import chosen_outputs
-from .tree_store import builds, ordered_nodes, tree_of
+from .reading.footprints import frame_of
+from .reading.planes import Plane
+from .reading.sites import NEARER, Site, sites_of
+from .tree.editing import chosen_outputs
+from .tree.evaluating import after_steps, read_surroundings
+from .tree.store import builds, ordered_nodes, tree_of
 
 Array = NDArray[np.float64]
 

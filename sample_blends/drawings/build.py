@@ -86,7 +86,7 @@ def image_of(name: str, rgba: np.ndarray) -> bpy.types.Image:
 
 def add_paper(picture: Picture, scene: bpy.types.Scene) -> None:
     """The background, below everything."""
-    from geoanalogy.blender.region_patches import image_material
+    from geoanalogy.blender.regions.patches import image_material
 
     low, high = np.array(picture.low), np.array(picture.high)
     image = image_of("paper", painted(picture.background, low, high, BACKGROUND))
@@ -103,8 +103,8 @@ def add_paper(picture: Picture, scene: bpy.types.Scene) -> None:
 
 def mistaken(edit: Edit, node: bpy.types.Node) -> list[str]:
     """The regions that an artist would reject: those that are none of the places where the edit belongs."""
-    from geoanalogy.blender.region_results import passing, targets_found
-    from geoanalogy.blender.tree_store import engine_node
+    from geoanalogy.blender.regions.results import passing, targets_found
+    from geoanalogy.blender.tree.store import engine_node
 
     wrong = []
     for target in passing(engine_node(node).operation, targets_found(node)):
@@ -118,8 +118,9 @@ def mistaken(edit: Edit, node: bpy.types.Node) -> list[str]:
 
 def record(edit: Edit) -> bpy.types.Node:
     """Make an edit as a user does: draw the query, find what is like it, lay the image."""
-    from geoanalogy.blender import region_queries, region_recording
-    from geoanalogy.blender.region_decisions import write_decisions
+    from geoanalogy.blender.regions import queries as region_queries
+    from geoanalogy.blender.regions import recording as region_recording
+    from geoanalogy.blender.regions.decisions import write_decisions
 
     context = bpy.context
     points = np.column_stack([edit.query, np.zeros(len(edit.query))])
@@ -168,8 +169,8 @@ def main() -> None:
     parser.add_argument("--painted", type=Path, help="write the file with what has been found here too")
     arguments = parser.parse_args()
     from geoanalogy.blender import names
-    from geoanalogy.blender.instances import clear_results
-    from geoanalogy.blender.tree_store import drawing_nodes, tree_of
+    from geoanalogy.blender.tree.store import drawing_nodes, tree_of
+    from geoanalogy.blender.writing.instances import clear_results
 
     scene = build(picture_of(arguments.scene))
     if arguments.painted is not None:

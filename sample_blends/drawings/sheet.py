@@ -32,7 +32,7 @@ GAP = 16
 
 def add_fill(name: str, region: shapely.Geometry, plane: object, height: float, colour: tuple[float, ...]) -> None:
     """A region as a sheet of clear colour."""
-    from geoanalogy.blender.region_patches import triangulated
+    from geoanalogy.blender.regions.patches import triangulated
 
     from .build import flat_material
 
@@ -46,8 +46,8 @@ def add_fill(name: str, region: shapely.Geometry, plane: object, height: float, 
 def show_queries(scene: bpy.types.Scene) -> None:
     """The bare drawing, with queries and targets filled."""
     from geoanalogy.blender import names
-    from geoanalogy.blender.region_results import passing, targets_found
-    from geoanalogy.blender.tree_store import drawing_nodes, engine_node, plane_of, tree_of
+    from geoanalogy.blender.regions.results import passing, targets_found
+    from geoanalogy.blender.tree.store import drawing_nodes, engine_node, plane_of, tree_of
 
     from .build import flat_material
 
@@ -102,7 +102,7 @@ def main() -> None:
     parser.add_argument("--width", type=int, default=900, help="pixels of one picture")
     arguments = parser.parse_args()
     from geoanalogy.blender import names
-    from geoanalogy.blender.replay import replay_steps
+    from geoanalogy.blender.tree.replay import replay_steps
 
     bridge.register()
     bpy.ops.wm.open_mainfile(filepath=str(arguments.blend.resolve()))

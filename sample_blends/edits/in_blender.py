@@ -9,9 +9,10 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from geoanalogy import PlacementOptions, PoseOptions
-from geoanalogy.blender import names, recording, register
-from geoanalogy.blender.placement_recording import placement_steps
+from geoanalogy.blender import names, register
 from geoanalogy.blender.rectangle_drawing import add_rectangles
+from geoanalogy.blender.tree import recording
+from geoanalogy.blender.tree.placement_recording import placement_steps
 from geoanalogy.poses.arrays import ArrayOptions
 from geoanalogy.poses.local_mapping import TransferOptions
 from geoanalogy.poses.scatter import ScatterOptions

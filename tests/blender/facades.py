@@ -122,4 +122,4 @@ def placement_node():
 
 def operation():
     """The engine's operation of the active node."""
-    return bridge("tree_store").engine_node(placement_node()).operation
+    return bridge("tree.store").engine_node(placement_node()).operation

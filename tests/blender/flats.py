@@ -130,4 +130,4 @@ def three_operations():
     for i, x in enumerate((0.2, 1.0)):
         activate(box(f"Box {i}", (0.3, 0.3, 0.3), f"box {i}", at=(x, 1.7, 0)))
         propagate()
-    return [node.name for node in bridge("tree_store").ordered_nodes(operations_tree())]
+    return [node.name for node in bridge("tree.store").ordered_nodes(operations_tree())]

@@ -74,7 +74,7 @@ def windows(corners, examples=(0, 1)):
 
 def solids(label=None):
     """The objects that show solids and outlines, in order."""
-    found = bridge("masses").masses_in(bpy.context.scene)
+    found = bridge("writing.masses").masses_in(bpy.context.scene)
     return [item for item in found if label in (None, item["ga_label"])]
 
 

@@ -46,7 +46,7 @@ def all_leaves(places=PLACES):
 
 def curve_drawing(lines, plane=LEVEL, name="Lines"):
     """Lines as the splines of a curve."""
-    item = bpy.data.objects.new(name, bridge("region_drawing").line_curve(name, [in_space(line) for line in lines]))
+    item = bpy.data.objects.new(name, bridge("regions.drawings").line_curve(name, [in_space(line) for line in lines]))
     item.matrix_world = Matrix(plane.tolist())
     return link(item)
 
@@ -133,4 +133,4 @@ def bridge(name):
 def world_points(item):
     """The points of a mesh, a curve or a grease pencil in the world."""
     bpy.context.view_layer.update()
-    return bridge("region_contents").points_of(item)
+    return bridge("regions.contents").points_of(item)

@@ -54,7 +54,7 @@ HOUSES = Path(__file__).resolve().parents[2] / "sample_blends" / "houses"
 @pytest.mark.parametrize("name", ["one-storey", "condominium"])
 def test_a_tree_from_a_file_becomes_a_node_group_and_comes_back_equal(name, tmp_path):
     face("plot", [(0, 0), (20, 0), (20, 24), (0, 24)], name)
-    files, source, target = bridge("tree_files"), HOUSES / f"{name}.json", tmp_path / "out.json"
+    files, source, target = bridge("tree.files"), HOUSES / f"{name}.json", tmp_path / "out.json"
     tree = files.import_tree(bpy.context.scene, source)
     assert bpy.ops.geoanalogy.export_tree(EXEC, filepath=str(target)) == {"FINISHED"}
     assert json.loads(target.read_text()) == json.loads(
@@ -74,7 +74,7 @@ def test_a_tree_applied_in_blender_gives_what_the_engine_gives():
     plots("one-storey")
     bpy.ops.geoanalogy.import_tree(EXEC, filepath=str(HOUSES / "one-storey.json"))
     assert bpy.ops.geoanalogy.apply(EXEC, True) == {"FINISHED"}
-    (around,) = bridge("evaluating").read_surroundings(bpy.context)
+    (around,) = bridge("tree.evaluating").read_surroundings(bpy.context)
     applied = engine("operations.tree").OperationsTree.load(HOUSES / "one-storey.json").apply(around.ground.scene)
     expected = sorted((e.label, e.key, round(e.solid.volume, 2)) for e in applied if e.solid and not e.absorbed_by)
     found = sorted((i["ga_label"], i["ga_key"], round(volume_of(i), 2)) for i in solids() if volume_of(i) > 1e-6)
@@ -110,7 +110,7 @@ def test_faces_of_any_direction_become_surfaces(edit_mode):
     assert bpy.ops.geoanalogy.label_faces(EXEC, True, label="facade") == {"FINISHED"}
     if edit_mode:
         bpy.ops.object.mode_set(mode="OBJECT")
-    grounds = bridge("ground").read_grounds(bpy.context.scene, bpy.context.evaluated_depsgraph_get())
+    grounds = bridge("reading.ground").read_grounds(bpy.context.scene, bpy.context.evaluated_depsgraph_get())
     assert [len(ground.scene.polygons) for ground in grounds] == [1, 1]
     normals = [np.array(item.matrix_world)[:3, :3] @ np.array(item.data.polygons[i].normal) for i in (1, 3)]
     for ground in grounds:
@@ -119,7 +119,7 @@ def test_faces_of_any_direction_become_surfaces(edit_mode):
         assert max(float(n @ ground.plane.normal) for n in normals) == pytest.approx(1.0, abs=1e-5)
     choose_faces(item, 1)
     bpy.ops.geoanalogy.label_faces(EXEC, True, label="")
-    grounds = bridge("ground").read_grounds(bpy.context.scene, bpy.context.evaluated_depsgraph_get())
+    grounds = bridge("reading.ground").read_grounds(bpy.context.scene, bpy.context.evaluated_depsgraph_get())
     assert len(grounds) == 1
 
 
@@ -211,7 +211,7 @@ def test_nodes_show_how_long_they_took_and_can_be_added():
     _, node = houses()
     assert node["seconds"] > 0
     tree = operations_tree()
-    made = bridge("new_nodes").new_node(tree, "selection", "house")
+    made = bridge("tree.new_nodes").new_node(tree, "selection", "house")
     assert made["stale"] and made.works_on == "house" and made.weights == "1, 1"
     made.weights = "1, 2, 3"
     assert [socket.name for socket in made.outputs] == ["Set 1", "Set 2", "Set 3"]
@@ -222,9 +222,9 @@ def test_nodes_show_how_long_they_took_and_can_be_added():
     tree.links.new(tree.nodes["extrude house"].outputs[0], made.inputs[0])
     assert bpy.ops.geoanalogy.apply(EXEC, True) == {"FINISHED"}
     assert made["count"] == 4 and "stale" not in made
-    combined = bridge("new_nodes").new_node(tree, "boolean", "house")
+    combined = bridge("tree.new_nodes").new_node(tree, "boolean", "house")
     combined.combination, combined.target = "subtract", "siblings"
-    operation = bridge("tree_store").engine_node(combined).operation
+    operation = bridge("tree.store").engine_node(combined).operation
     assert (operation.kind, operation.target) == ("subtract", "siblings")
 
 
@@ -276,7 +276,7 @@ def test_the_command_and_the_batch_program_build_what_the_sidebar_builds(tmp_pat
     corners, _ = houses()
     windows(corners)
     built = sum(volume_of(item) for item in solids("house"))
-    (around,) = bridge("evaluating").read_surroundings(bpy.context)
+    (around,) = bridge("tree.evaluating").read_surroundings(bpy.context)
     tree, plan = tmp_path / "house.json", tmp_path / "parcels.geojson"
     engine().write_scene(around.ground.scene, plan)
     bpy.ops.geoanalogy.export_tree(EXEC, filepath=str(tree))

@@ -20,7 +20,7 @@ def test_a_missing_library_object_is_named_and_the_rest_is_built(tmp_path):
     settings["mesh"] = "shutter"
     tree = operations_tree()
     tree.nodes["extrude window"].mute = True
-    report = bridge("whole").show_whole(bpy.context)
+    report = bridge("tree.whole").show_whole(bpy.context)
     assert report.problems == (
         "node 'window': the library object 'shutter' is missing; outlines take its places, add an object of that name",
     )
@@ -202,5 +202,5 @@ def test_a_result_on_a_wall_can_be_explained():
     key = next(key for key in boxes() if key.startswith("house/parcel 3"))
     item = activate(boxes()[key])
     assert bpy.ops.geoanalogy.explain(EXEC, True) == {"FINISHED"}
-    reasons = bridge("explanation").explanation_of(bpy.context.scene, item)
+    reasons = bridge("tree.explanation").explanation_of(bpy.context.scene, item)
     assert reasons and any("wall" in reason.text for reason in reasons)

@@ -147,7 +147,7 @@ def test_a_tree_is_applied_to_selected_parcels():
 def test_moving_one_example_evaluates_only_what_depends_on_it():
     corners, _ = houses()
     windows(corners)
-    evaluations = bridge("evaluating").evaluations
+    evaluations = bridge("tree.evaluating").evaluations
     bpy.ops.geoanalogy.replay(EXEC, True)
     counts = evaluations.evaluated, evaluations.surfaces_evaluated
     bpy.ops.geoanalogy.replay(EXEC, True)
@@ -270,7 +270,7 @@ def test_a_parcel_that_cannot_be_used_is_left_out_and_named():
     nameless = face("parcel 11", [(140, 0), (150, 0), (150, 10)])
     bpy.context.scene.collection.objects.unlink(nameless)
     plan.objects.link(nameless)
-    report = bridge("whole").show_whole(bpy.context)
+    report = bridge("tree.whole").show_whole(bpy.context)
     assert volumes() == every
     assert any("'parcel 9'" in p and p.endswith("it is left out") for p in report.problems)
     assert any("'parcel 11' of the plan has no label" in p for p in report.problems)
@@ -348,8 +348,8 @@ def test_what_is_done_to_nodes_in_the_node_editor_is_seen():
     tree.links.new(reroute.outputs[0], tree.nodes["extrude house"].inputs[0])
     assert bpy.ops.geoanalogy.apply(EXEC, True) == {"FINISHED"}
     assert volumes() == whole
-    bridge("tree_links").check_links(tree)
-    assert bridge("tree_links").circle_in(tree) == []
+    bridge("tree.links").check_links(tree)
+    assert bridge("tree.links").circle_in(tree) == []
 
 
 def test_an_appended_tree_builds_in_another_file(tmp_path):

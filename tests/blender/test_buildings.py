@@ -168,7 +168,7 @@ def test_the_open_file_may_have_the_parcels(files):
 
 
 def test_an_earlier_output_stays_where_writing_fails(files, monkeypatch):
-    buildings = bridge("buildings")
+    buildings = bridge("writing.buildings")
     output, picture = files / "out.blend", files / "out.png"
     output.write_bytes(b"earlier")
     picture.write_bytes(b"earlier")
@@ -191,7 +191,7 @@ def test_a_tree_of_the_map_is_an_instance(files):
     polygon = engine().Polygon
     ground = engine().Scene([polygon([(0, 0), (4, 0), (4, 4), (0, 4)], label="statue", id="t")])
     together = engine("batch.product").together
-    built = bridge("buildings").fill(bpy.context.scene, ground, together([]), files / "library.blend")
+    built = bridge("writing.buildings").fill(bpy.context.scene, ground, together([]), files / "library.blend")
     bpy.context.view_layer.update()
     ((name, place),) = shown()
     assert built.problems == () and name == "statue" and "Parcels" not in bpy.context.scene.objects
@@ -205,7 +205,7 @@ def test_rotations_are_kept_exactly_by_many_instances(files):
     axes[:3] = [np.diag(d) for d in ((1, -1, -1), (-1, 1, -1), (-1, -1, 1))]
     places, sizes = rng.normal(size=(500, 3)), rng.uniform(0.5, 2.0, (500, 3))
     source = box("statue", (1.0, 1.0, 1.0))
-    made = bridge("scattering").scattered("many", source, places, axes, sizes)
+    made = bridge("writing.scattering").scattered("many", source, places, axes, sizes)
     bpy.context.scene.collection.objects.link(made)
     bpy.context.view_layer.update()
     found = np.array([place for _, place in shown()])
@@ -214,7 +214,7 @@ def test_rotations_are_kept_exactly_by_many_instances(files):
 
 
 def test_the_cameras_see_everything(files):
-    buildings = bridge("buildings")
+    buildings = bridge("writing.buildings")
     applied = tree().apply(plots(), seed=7)
     buildings.build(bpy.context.scene, applied, None)
     scene = bpy.context.scene
@@ -234,13 +234,13 @@ def test_the_cameras_see_everything(files):
 def test_an_empty_plan_is_refused():
     applied = tree().apply(engine().Scene([]), seed=7)
     with pytest.raises(engine("errors").InputError, match="nothing was built and there are no parcels"):
-        bridge("buildings").build(bpy.context.scene, applied, None)
+        bridge("writing.buildings").build(bpy.context.scene, applied, None)
 
 
 @pytest.mark.parametrize(
     ("name", "like"), [("entrance door", "door"), ("lower window sill", "sill"), ("Street Wall", "wall")]
 )
 def test_the_last_word_that_is_known_gives_the_colour(name, like):
-    shading = bridge("shading")
+    shading = bridge("writing.shading")
     assert shading.finish_of(name) == shading.FINISHES[like]
     assert shading.finish_of("quince") == shading.finish_of("quince") != shading.finish_of("medlar")

@@ -19,10 +19,10 @@ def test_there_are_sample_drawings():
 def test_a_sample_is_small_and_holds_operations_without_results(path):
     assert path.stat().st_size < LARGEST
     bpy.ops.wm.open_mainfile(filepath=str(path))
-    nodes = bridge("tree_store").drawing_nodes(operations())
+    nodes = bridge("tree.store").drawing_nodes(operations())
     assert nodes and results() == []
     for node in nodes:
-        (patch,) = bridge("region_results").contents_of(node)
+        (patch,) = bridge("regions.results").contents_of(node)
         assert patch.name in bpy.context.scene.objects
         assert node["query_object"].name in bpy.context.scene.objects
     images = [image for image in bpy.data.images if image.users]

@@ -51,7 +51,7 @@ def batch_command(*arguments):
 
 
 def found_of(node):
-    return bridge("region_results").targets_found(node)
+    return bridge("regions.results").targets_found(node)
 
 
 def truth(points, plane=LEVEL, height=0.0):
@@ -74,7 +74,7 @@ def test_lines_of_every_kind_are_read_on_every_plane(make, plane):
         holder.objects.link(item)
     bpy.context.scene.collection.children.link(holder)
     bpy.context.scene.geoanalogy.drawing = holder
-    drawn = bridge("region_drawing").read_drawn_lines(bpy.context)
+    drawn = bridge("regions.drawings").read_drawn_lines(bpy.context)
     assert len(drawn.lines) == 9
     assert abs(abs(drawn.plane.normal @ plane[:3, 2]) - 1.0) < 1e-5
     assert max(drawn.plane.normal[2], -drawn.plane.normal[1], drawn.plane.normal[0]) > 0.5
@@ -92,13 +92,13 @@ def test_bezier_splines_and_strokes_are_read_as_they_are_drawn():
     for point, co in zip(spline.bezier_points, ((0, 0, 0), (2, 0, 0)), strict=True):
         point.co = co
         point.handle_left = point.handle_right = (co[0], 1, 0)
-    (line,) = bridge("region_drawing").lines_of(item)
+    (line,) = bridge("regions.drawings").lines_of(item)
     assert len(line) == spline.resolution_u + 1
     assert line[len(line) // 2] == pytest.approx((1.0, 0.75, 0.0))
 
 
 def test_edges_are_joined_to_lines_that_end_where_they_branch():
-    joined = bridge("region_drawing").joined_edges
+    joined = bridge("regions.drawings").joined_edges
     ring = np.array([(0, 1), (2, 1), (2, 3), (3, 0)])
     assert [sorted(set(line.tolist())) for line in joined(ring)] == [[0, 1, 2, 3]]
     assert joined(ring)[0][0] == joined(ring)[0][-1]
@@ -358,7 +358,7 @@ def test_what_is_edited_after_carrying_over_is_said():
 def test_matches_of_little_evidence_say_so(monkeypatch):
     node = leaves_found()
     carry(patch())
-    module = bridge("region_results")
+    module = bridge("regions.results")
     best, second = found_of(node)[:2]
     assert not best.uncertain and module.uncertain_results(node) == []
     # A demand that lies between the two: the one with less evidence is a guess then.
@@ -418,8 +418,8 @@ def test_two_operations_stand_in_a_chain_beside_operations_on_polygons():
     count = len(results())
     assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
     assert len(results()) == count
-    assert [n.name for n in bridge("tree_store").drawing_nodes(tree)] == ["leaf", "other"]
-    assert [n.name for n in bridge("tree_store").operation_nodes(tree)] == ["bed"]
+    assert [n.name for n in bridge("tree.store").drawing_nodes(tree)] == ["leaf", "other"]
+    assert [n.name for n in bridge("tree.store").operation_nodes(tree)] == ["bed"]
 
 
 def test_finding_again_records_the_same_operation_anew():

@@ -17,7 +17,7 @@ def shifted(ring, x, y=0.0):
 
 def read(**options):
     bpy.context.view_layer.update()
-    return bridge("ground").read_grounds(bpy.context.scene, bpy.context.evaluated_depsgraph_get(), **options)
+    return bridge("reading.ground").read_grounds(bpy.context.scene, bpy.context.evaluated_depsgraph_get(), **options)
 
 
 def only():

@@ -29,8 +29,8 @@ def engine_results(item, **options):
     """What the engine itself says about an object among the labelled ones."""
     bpy.context.view_layer.update()
     depsgraph = bpy.context.evaluated_depsgraph_get()
-    (ground,) = bridge("ground").read_grounds(bpy.context.scene, depsgraph, {item.name})
-    footprints = bridge("footprints")
+    (ground,) = bridge("reading.ground").read_grounds(bpy.context.scene, depsgraph, {item.name})
+    footprints = bridge("reading.footprints")
     pose = footprints.pose_of(item, ground.plane)
     ring = footprints.footprint_of(item, ground.plane, depsgraph)
     learned = engine("poses.propagate").learn_pose(
@@ -87,7 +87,9 @@ def test_set_footprint_takes_hull_outline_or_box(kind, area):
     assert bpy.ops.geoanalogy.set_footprint(EXEC, kind=kind) == {"FINISHED"}
     polygon = engine().Polygon(np.array(sofa["ga_footprint"].to_list()).reshape(-1, 2))
     assert polygon.area == pytest.approx(area, rel=1e-4)
-    ring = bridge("footprints").footprint_of(sofa, bridge("planes").Plane(), bpy.context.evaluated_depsgraph_get())
+    ring = bridge("reading.footprints").footprint_of(
+        sofa, bridge("reading.planes").Plane(), bpy.context.evaluated_depsgraph_get()
+    )
     assert engine().Polygon(ring).centroid == pytest.approx(polygon.centroid, abs=1e-5)
     assert bpy.ops.geoanalogy.set_footprint(EXEC, kind="none") == {"FINISHED"}
     assert "ga_footprint" not in sofa
@@ -117,7 +119,7 @@ def test_import_plan_keeps_what_the_file_says(tmp_path):
     path.write_text(GEOJSON)
     assert bpy.ops.geoanalogy.import_plan(EXEC, filepath=str(path)) == {"FINISHED"}
     bpy.context.view_layer.update()
-    (ground,) = bridge("ground").read_grounds(bpy.context.scene, bpy.context.evaluated_depsgraph_get())
+    (ground,) = bridge("reading.ground").read_grounds(bpy.context.scene, bpy.context.evaluated_depsgraph_get())
     read = engine("formats.files").read_scene(path)
     for polygon in read.polygons:
         found = ground.scene.polygon(polygon.id)
@@ -178,17 +180,17 @@ def test_mirrored_results_have_a_negative_y_scale():
 
 
 def test_the_mirrored_twin_of_a_tilted_object_is_its_mirror_image():
-    instances, planes = bridge("instances"), bridge("planes")
+    instances, planes = bridge("writing.instances"), bridge("reading.planes")
     item = box("Ramp", (1.0, 0.5, 0.3), "ramp")
     item.rotation_euler = (0.2, -0.3, 0.4)
     item.scale = (1.0, 2.0, 3.0)
     bpy.context.view_layer.update()
     level = planes.Plane()
-    own = bridge("footprints").pose_of(item, level)
-    rest = bridge("footprints").rest_of(item, own, level)
+    own = bridge("reading.footprints").pose_of(item, level)
+    rest = bridge("reading.footprints").rest_of(item, own, level)
     pose = engine("poses.pose").Pose((2.0, 1.0), 0.7, mirrored=True)
     element = engine("operations.element").Element("ramp", "Ramp", "r", pose, None, "ramp", "r@0,0", scale=1.5)
-    one = bridge("tree_store").Placed("Ramp", item, rest)
+    one = bridge("tree.store").Placed("Ramp", item, rest)
     assert instances.write_results(bpy.context.scene, "ramp", [(element, level)], [one]) == 1
     (found,) = results()
     bpy.context.view_layer.update()
@@ -260,7 +262,7 @@ def test_the_redo_panel_sets_the_engines_options(settings, options):
     rooms(2)
     bed()
     node = propagate(**settings)
-    learned = bridge("tree_store").engine_node(node).operation.model.options
+    learned = bridge("tree.store").engine_node(node).operation.model.options
     for name, value in options.items():
         assert getattr(learned, name) == (pytest.approx(value) if isinstance(value, float) else value)
 

@@ -82,9 +82,9 @@ def test_the_operation_holds_the_model_and_the_examples_belong_to_the_node():
     assert len(stored.model.lesson.taught) == 3
     assert stored.mesh == made[0].name and stored.label == "sill" and stored.model.label == "facade"
     assert stored.size == pytest.approx((1.2, 0.15), abs=1e-6)
-    kept = bridge("tree_store").placed_by(node)
+    kept = bridge("tree.store").placed_by(node)
     assert [one.item for one in kept if one.target is not None] == made
-    rule = bridge("learned").rule_of(node)
+    rule = bridge("tree.learned").rule_of(node)
     assert any("below the window" in reason.text or "window" in reason.text for reason in rule)
     assert all(0 < reason.share <= 1 for reason in rule)
 
@@ -94,15 +94,15 @@ def test_the_threshold_sifts_without_computing():
     examples(facades[0])
     node = place()
     every = placed()
-    evaluated = bridge("evaluating").evaluations.evaluated
-    scores = sorted(e.importance for e in bridge("refresh").proposed_by(node) if not e.example)
+    evaluated = bridge("tree.evaluating").evaluations.evaluated
+    scores = sorted(e.importance for e in bridge("tree.refresh").proposed_by(node) if not e.example)
     node.threshold = 1.0
     assert len(results()) == sum(s >= 1.0 for s in scores)
     node.threshold = 0.1
     assert len(results()) == len(scores)
     node.threshold = 0.5
     assert placed() == every
-    assert bridge("evaluating").evaluations.evaluated == evaluated
+    assert bridge("tree.evaluating").evaluations.evaluated == evaluated
 
 
 def test_a_rejected_result_becomes_a_counter_example_and_stays_away():
@@ -373,7 +373,7 @@ def test_why_here_lists_the_relations_of_a_result():
     place()
     activate(results()[0])
     assert bpy.ops.geoanalogy.explain(EXEC, True) == {"FINISHED"}
-    reasons = bridge("explanation").explanation_of(bpy.context.scene, results()[0])
+    reasons = bridge("tree.explanation").explanation_of(bpy.context.scene, results()[0])
     assert any("window" in reason.text for reason in reasons)
 
 
@@ -384,13 +384,13 @@ def test_novelty_names_the_wall_that_is_unlike_the_examples():
     outline("tower window", ring(1.0, 20.0, 0.6, 3.0), "window", placed_)
     examples(facades[0])
     node = place(threshold=0.1)
-    targets = bridge("learned").targets_of(node)
+    targets = bridge("tree.learned").targets_of(node)
     of = {target.name: target.novelty for target in targets}
     assert of["house"] < 0.4
     assert targets[0].name == "tower"
     for item in results()[:3]:
-        assert 0 <= bridge("learned").novelty_of(item, node) <= 1
-    assert bridge("learned").novelty_of(bpy.data.objects["house"], node) is None
+        assert 0 <= bridge("tree.learned").novelty_of(item, node) <= 1
+    assert bridge("tree.learned").novelty_of(bpy.data.objects["house"], node) is None
 
 
 def bad_nothing():
@@ -473,7 +473,7 @@ def test_a_placement_that_is_cancelled_halfway_changes_nothing():
     facades = street()
     made = examples(facades[0])
     before = everything()
-    steps = bridge("placement_recording").placement_steps(bpy.context, made)
+    steps = bridge("tree.placement_recording").placement_steps(bpy.context, made)
     for _ in range(2):
         next(steps)
     steps.close()

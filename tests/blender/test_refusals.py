@@ -105,7 +105,7 @@ def ring_of_operations():
     three_operations()
     tree = operations_tree()
     # As a Blender without the add-on would link them.
-    with bridge("tree_links").unwatched(tree):
+    with bridge("tree.links").unwatched(tree):
         tree.links.new(tree.nodes[2].outputs[0], tree.nodes[0].inputs[0])
 
 

@@ -45,7 +45,7 @@ def operations():
 
 def standing():
     """Every object that was placed or is an example: (name of its asset, ring on the floor)."""
-    nodes = {node.name: bridge("tree_store").engine_node(node).operation for node in operations()}
+    nodes = {node.name: bridge("tree.store").engine_node(node).operation for node in operations()}
     for item in placed():
         label = getattr(nodes[item["ga_node"]], "label", "group")
         yield label, outline(item)

@@ -33,14 +33,14 @@ def test_the_threshold_sifts_without_computing():
     bed()
     node = propagate(most=0, threshold=0.1)
     every = placed()
-    evaluated = bridge("evaluating").evaluations.evaluated
+    evaluated = bridge("tree.evaluating").evaluations.evaluated
     node.threshold = 0.95
     few = placed()
     assert 0 < len(few) < len(every)
     assert all(any(f[2:] == e[2:] for e in every) for f in few)
     node.threshold = 0.1
     assert placed() == every
-    assert bridge("evaluating").evaluations.evaluated == evaluated
+    assert bridge("tree.evaluating").evaluations.evaluated == evaluated
 
 
 def test_the_threshold_sifts_in_a_reopened_file(tmp_path):
@@ -117,13 +117,13 @@ def test_explain_lists_the_relations_of_a_result():
     propagate()
     item = activate(results()[0])
     assert bpy.ops.geoanalogy.explain(EXEC) == {"FINISHED"}
-    reasons = bridge("explanation").explanation_of(bpy.context.scene, item)
+    reasons = bridge("tree.explanation").explanation_of(bpy.context.scene, item)
     assert sum(r.share for r in reasons) == pytest.approx(1.0, abs=0.01)
     assert any("bedroom" in r.text for r in reasons)
     bpy.ops.ed.undo_push(message="more")
     bpy.ops.ed.undo_push(message="still more")
     bpy.ops.ed.undo()
-    assert bridge("explanation").explanation_of(bpy.context.scene, bpy.data.objects[results()[0].name]) is None
+    assert bridge("tree.explanation").explanation_of(bpy.context.scene, bpy.data.objects[results()[0].name]) is None
 
 
 # The list of operations
@@ -178,7 +178,7 @@ def test_move_changes_the_order():
     names = three_operations()
     tree = operations_tree()
     tree.nodes.active = tree.nodes[names[2]]
-    ordered = bridge("tree_store").ordered_nodes
+    ordered = bridge("tree.store").ordered_nodes
     assert bpy.ops.geoanalogy.move_operation(EXEC, True, direction="UP") == {"FINISHED"}
     assert [n.name for n in ordered(tree)] == [names[0], names[2], names[1]]
     assert bpy.ops.geoanalogy.move_operation(EXEC, True, direction="DOWN") == {"FINISHED"}

@@ -32,7 +32,7 @@ def two_operations():
     ],
 )
 def test_plain_data_comes_back_from_custom_properties(plain):
-    conversion = bridge("plain")
+    conversion = bridge("tree.plain")
     item = bpy.data.objects.new("carrier", None)
     item["data"] = {key: conversion.to_property(value) for key, value in plain.items()}
     assert conversion.from_property(item["data"]) == plain
@@ -40,7 +40,7 @@ def test_plain_data_comes_back_from_custom_properties(plain):
 
 def test_the_stored_tree_is_the_engines():
     tree = two_operations()
-    store = bridge("tree_store")
+    store = bridge("tree.store")
     stored = store.engine_tree(store.ordered_nodes(tree))
     assert [(n.id, n.operation.type, [k.node for k in n.inputs]) for n in stored.nodes] == [
         ("bed", "pose placement", []),
@@ -52,7 +52,7 @@ def test_the_stored_tree_is_the_engines():
 
 def test_the_stored_tree_applied_by_the_engine_is_what_stands_there():
     tree = two_operations()
-    store, evaluating = bridge("tree_store"), bridge("evaluating")
+    store, evaluating = bridge("tree.store"), bridge("tree.evaluating")
     (around,) = evaluating.read_surroundings(bpy.context)
     elements = store.engine_tree(store.ordered_nodes(tree)).apply(around.ground.scene, tree.seed)
     expected = [(e.node, e.key, *e.pose.position) for e in elements if not e.example]
@@ -186,7 +186,7 @@ def test_a_propagation_that_is_cancelled_halfway_changes_nothing():
     rooms(6)
     item = bed()
     before = everything()
-    steps = bridge("recording").pose_steps(bpy.context, item)
+    steps = bridge("tree.recording").pose_steps(bpy.context, item)
     for _ in range(4):
         next(steps)
     steps.close()

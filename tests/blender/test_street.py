@@ -38,7 +38,7 @@ def boxes_by_house():
     aside = {item.name for item in bpy.data.collections["Aside"].objects}
     for item in bpy.context.scene.objects:
         if "ga_key" in item:
-            label = bridge("tree_store").engine_node(operations[item["ga_node"]]).operation.label
+            label = bridge("tree.store").engine_node(operations[item["ga_node"]]).operation.label
         elif "ga_label" in item and "ga_drawn" not in item and item["ga_label"] != "facade" and item.name not in aside:
             label = item["ga_label"]
         else:
@@ -157,7 +157,7 @@ def test_few_examples_on_two_facades_teach_every_operation_and_a_replay_gives_th
     assert len(houses()) == 8
     assert len({tuple(np.round(i.matrix_world.col[2], 3)) for i in houses()}) >= 4, "facades of several directions"
     for node in bpy.context.scene.geoanalogy.tree.nodes:
-        examples = [one.item for one in bridge("tree_store").placed_by(node) if one.target is not None]
+        examples = [one.item for one in bridge("tree.store").placed_by(node) if one.target is not None]
         assert 2 <= len(examples) <= 6
         assert {where_is(item)[0] for item in examples} <= set(SHOWN)
     assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}

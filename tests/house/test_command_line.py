@@ -31,7 +31,7 @@ def replay(monkeypatch, tmp_path):
                 options[key].write_bytes(b"written")
 
     record = SimpleNamespace(calls=calls, action=write, write=write)
-    monkeypatch.setitem(sys.modules, "geoanalogy.blender.replay", SimpleNamespace(replay_file=replay_file))
+    monkeypatch.setitem(sys.modules, "geoanalogy.blender.tree.replay", SimpleNamespace(replay_file=replay_file))
     monkeypatch.chdir(tmp_path)
     return record
 

@@ -1,0 +1,1 @@
+"""What the objects of a Blender scene are to the engine: planes, outlines, footprints, arrangements of polygons."""

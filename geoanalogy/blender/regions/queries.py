@@ -1,0 +1,213 @@
+"""Queries: the region or the stroke of a drawing that is looked for elsewhere, as a curve that stays editable."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+import shapely
+from mathutils import Matrix
+from numpy.typing import ArrayLike, NDArray
+
+from ...errors import InputError
+from .. import names
+from ..reading.planes import Plane, extent
+from .drawings import LINES, line_curve, lines_of, read_drawn_lines
+
+Array = NDArray[np.float64]
+
+#: The collection that queries are put into.
+QUERIES = "Queries"
+
+#: Distance between the ends of a line, as a share of its length, below which it is a ring: a lasso is rarely closed.
+NEARLY_RING = 0.02
+
+#: Colours of queries and of what is found, in views that show the colours of objects.
+QUERY_COLOUR, TARGET_COLOUR = (0.1, 0.6, 0.2, 1.0), (0.85, 0.15, 0.1, 1.0)
+
+#: Corners of a quarter circle in the outline of a brush.
+BRUSH_CORNERS = 6
+
+
+@dataclass(frozen=True)
+class ReadQuery:
+    """A query on the plane of its drawing.
+
+    Attributes
+    ----------
+    points : ndarray of shape (n, 2)
+    closed : bool
+        Whether it is a region; else a stroke.
+    """
+
+    points: Array
+    closed: bool
+
+    @property
+    def kind(self) -> str:
+        """What `RegionOptions.query_kind` calls it."""
+        return "region" if self.closed else "stroke"
+
+
+def read_query(item: bpy.types.Object | None, plane: Plane) -> ReadQuery:
+    """Read a query.
+
+    Parameters
+    ----------
+    item : bpy.types.Object or None
+        A curve or a grease pencil of one line; it is taken to the plane.
+    plane : Plane
+
+    Returns
+    -------
+    ReadQuery
+
+    Raises
+    ------
+    InputError
+        Where there is none, or not one line.
+    """
+    if item is None:
+        raise InputError("there is no query; outline the region to look for with the lasso or the brush")
+    if item.type not in LINES:
+        raise InputError(f"object {item.name!r} is no line; select a curve or a stroke round the region")
+    lines = lines_of(item)
+    if len(lines) != 1:
+        raise InputError(f"object {item.name!r} has {len(lines)} lines; a query is a single one")
+    points = plane.to_plane(lines[0])[:, :2]
+    length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+    closed = len(points) > 3 and float(np.linalg.norm(points[-1] - points[0])) <= NEARLY_RING * length
+    return ReadQuery(points, closed)
+
+
+def add_query(
+    context: bpy.types.Context, strokes: Sequence[ArrayLike], closed: bool, radius: float = 0.0, name: str = ""
+) -> bpy.types.Object:
+    """Make a query of points that were drawn, and choose it.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    strokes : sequence of array_like of shape (n, 3)
+        In the world; they are taken to the plane of the drawing. Several only of a brush.
+    closed : bool
+        Whether the line goes round a region; else it is a stroke along a thin shape.
+    radius : float
+        Of a brush: the region that it has passed over, scene units; 0: no brush.
+    name : str
+        Empty: "query".
+
+    Returns
+    -------
+    bpy.types.Object
+        A curve in the collection of queries, selected and active.
+
+    Raises
+    ------
+    InputError
+        Where there are too few points, or some that are not finite; then none is made.
+    """
+    given = [np.asarray(stroke, float).reshape(-1, 3) for stroke in strokes if len(stroke)]
+    if not all(np.isfinite(stroke).all() for stroke in given) or not np.isfinite(radius):
+        raise InputError("the query has a point that is not finite (NaN or infinity); draw it again")
+    drawn = read_drawn_lines(context)
+    parts = [drawn.plane.to_plane(stroke)[:, :2] for stroke in given]
+    if radius > 0.0 and parts:
+        flat, closed = brushed(parts, radius), True
+    else:
+        flat = parts[0] if len(parts) == 1 else np.zeros((0, 2))
+    if len(flat) < (3 if closed else 2) or extent(flat) == 0.0:
+        raise InputError("the query has no extent; drag round the region, or along the shape")
+    ring = np.vstack([flat, flat[:1]]) if closed and np.any(flat[0] != flat[-1]) else flat
+    middle = ring.mean(axis=0)
+    curve = line_curve("query", [np.column_stack([ring - middle, np.zeros(len(ring))])])
+    item = bpy.data.objects.new(name.strip() or "query", curve)
+    frame = drawn.plane.matrix.copy()
+    frame[:3, 3] = drawn.plane.to_world([(*middle, 0.0)])[0]
+    item.matrix_world = Matrix(frame.tolist())
+    _collection(context.scene).objects.link(item)
+    choose_query(context, item, closed)
+    for other in context.selected_objects:
+        other.select_set(False)
+    item.select_set(True)
+    context.view_layer.objects.active = item
+    return item
+
+
+def use_as_query(context: bpy.types.Context, item: bpy.types.Object | None) -> bool:
+    """Take a stroke or a curve that is there already as the query.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    item : bpy.types.Object or None
+
+    Returns
+    -------
+    bool
+        Whether it is a region.
+
+    Raises
+    ------
+    InputError
+        Where it is no single line, or nothing else is drawn.
+    """
+    if item is None:
+        raise InputError("nothing is selected; select the curve or the stroke that goes round the region")
+    if names.KEY in item:
+        raise InputError(f"object {item.name!r} is a result; select a line of your own")
+    known = item.get(names.QUERY)
+    # It must not count as a line of the drawing whose plane it is read on.
+    item[names.QUERY] = known or "region"
+    try:
+        closed = read_query(item, read_drawn_lines(context).plane).closed
+    except InputError:
+        if known is None:
+            del item[names.QUERY]
+        raise
+    choose_query(context, item, closed)
+    return closed
+
+
+def choose_query(context: bpy.types.Context, item: bpy.types.Object, closed: bool) -> None:
+    """Make an object the query of its scene.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    item : bpy.types.Object
+    closed : bool
+        Whether it is a region.
+    """
+    item[names.QUERY] = "region" if closed else "stroke"
+    item.hide_render = True
+    item.show_in_front = True
+    item.color = QUERY_COLOUR
+    context.scene.geoanalogy.query = item
+
+
+def brushed(strokes: Sequence[Array], radius: float) -> Array:
+    """The outline of what a round brush has passed over.
+
+    Parameters
+    ----------
+    strokes : sequence of ndarray of shape (n, 2)
+    radius : float
+
+    Returns
+    -------
+    ndarray of shape (m, 2)
+        Of the largest part, without holes; the last point is not repeated.
+    """
+    paths = [shapely.linestrings(stroke) if len(stroke) > 1 else shapely.points(stroke[0]) for stroke in strokes]
+    swept = shapely.union_all([path.buffer(radius, quad_segs=BRUSH_CORNERS) for path in paths])
+    outline = shapely.get_exterior_ring(max(shapely.get_parts(swept), key=lambda part: part.area))
+    return shapely.get_coordinates(outline.simplify(0.05 * radius))[:-1]
+
+
+def _collection(scene: bpy.types.Scene) -> bpy.types.Collection:
+    holder = next((c for c in scene.collection.children if c.name.split(".")[0] == QUERIES), None)
+    if holder is None:
+        holder = bpy.data.collections.new(QUERIES)
+        scene.collection.children.link(holder)
+    return holder

@@ -1,0 +1,182 @@
+"""Corrections by hand: results accepted, rejected, or kept where the user has moved them."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import bpy
+import numpy as np
+
+from ...errors import InputError
+from ...operations.decisions import Decisions, Pin
+from ...operations.element import Element
+from ...operations.node import Node
+from ...poses.pose import Pose
+from ...tolerances import CONTAINED_SHARE
+from .. import names
+from ..reading.footprints import pose_of
+from ..reading.planes import Plane
+from ..reading.sites import site_under, sites_before
+from .evaluating import mark_stale
+from .refresh import proposed_by
+from .showing import show_again
+from .store import builds, engine_node, is_building, is_placement, placed_by, require_operations
+from .writing_nodes import write_operation
+
+#: Distance, in scene units, and angle, in radians, from its place below which a result has not been moved: single
+#: precision at a kilometre from the origin.
+UNMOVED = 1e-3
+
+
+def selected_results(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """The results among the selected objects.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+
+    Returns
+    -------
+    list of bpy.types.Object
+    """
+    return [item for item in context.selected_objects if names.KEY in item]
+
+
+def decide(context: bpy.types.Context, items: Iterable[bpy.types.Object], verdict: str) -> int:
+    """Accept or reject results; those that were moved by hand are kept where they are when they are accepted.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    items : iterable of bpy.types.Object
+        Results.
+    verdict : {"accept", "reject", "forget"}
+
+    Returns
+    -------
+    int
+        How many were decided on.
+
+    Raises
+    ------
+    InputError
+        Where there are none, their operation is gone, or one to be kept lies outside every polygon.
+    """
+    tree = require_operations(context.scene)
+    by_node: dict[str, list[bpy.types.Object]] = {}
+    for item in items:
+        by_node.setdefault(item[names.NODE], []).append(item)
+    if not by_node:
+        raise InputError(f"no result is selected; select objects in the collection {names.COLLECTION!r}")
+    missing = sorted(set(by_node) - {node.name for node in tree.nodes})
+    if "" in missing:
+        raise InputError("the masses are merged into one mesh per label; show them singly in step 5 to correct one")
+    if missing:
+        raise InputError(f"the operation {missing[0]!r} is no longer there; replay, and its results will go")
+    changed = []
+    for name, group in by_node.items():
+        node = tree.nodes[name]
+        engine = engine_node(node)
+        if is_building(node):
+            raise InputError(
+                f"object {group[0].name!r} was made of the plan itself by {name!r}, not placed; correct the plan"
+            )
+        decisions = engine.operation.decisions
+        pins = _pins(context, node, group) if verdict == "accept" else {}
+        for key in dict.fromkeys(item[names.KEY] for item in group):
+            decisions = decisions.pin(key, pins[key]) if key in pins else getattr(decisions, verdict)(key)
+        changed.append((node, engine, decisions))
+    for node, engine, decisions in changed:
+        _write_decisions(context, node, engine, decisions)
+    return sum(len(group) for group in by_node.values())
+
+
+def reject_below(context: bpy.types.Context, node: bpy.types.Node) -> int:
+    """Reject all results of an operation below its threshold, so that a lower one does not bring them back.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    node : bpy.types.Node
+
+    Returns
+    -------
+    int
+        How many.
+    """
+    engine = engine_node(node)
+    threshold = getattr(engine.operation, "threshold", 0.0)
+    decisions = engine.operation.decisions
+    kept = {*decisions.accepted, *decisions.pinned, *decisions.rejected}
+    below = [e.key for e in proposed_by(node) if e.importance < threshold and not e.example and e.key not in kept]
+    for key in below:
+        decisions = decisions.reject(key)
+    _write_decisions(context, node, engine, decisions)
+    return len(below)
+
+
+def forget_all(context: bpy.types.Context, node: bpy.types.Node) -> int:
+    """Take back all decisions about an operation's results.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    node : bpy.types.Node
+
+    Returns
+    -------
+    int
+        How many there were.
+    """
+    engine = engine_node(node)
+    decisions = engine.operation.decisions
+    _write_decisions(context, node, engine, Decisions())
+    return len({*decisions.accepted, *decisions.rejected, *decisions.pinned})
+
+
+def _write_decisions(context: bpy.types.Context, node: bpy.types.Node, engine: Node, decisions: Decisions) -> None:
+    write_operation(node, replace(engine, operation=replace(engine.operation, decisions=decisions)))
+    show_again(context, node)
+    if not builds(node.id_data):
+        mark_stale(node.id_data, node)
+
+
+def _pins(context: bpy.types.Context, node: bpy.types.Node, items: Iterable[bpy.types.Object]) -> dict[str, Pin]:
+    """Where those results stand that have been moved, by their keys."""
+    sites = sites_before(context, node)
+    proposed = {e.key: e for e in proposed_by(node)}
+    rests = {one.mesh: one.rest for one in placed_by(node)}
+    found = {}
+    for item in items:
+        e = proposed.get(item[names.KEY])
+        at = None if e is None else site_under(sites, e)
+        if at is None:
+            continue
+        if names.MASS in item.users_collection[0]:
+            pose = pose_of(item, at.plane)
+        elif is_placement(node):
+            pose = _pose_of_placed(item, e, rests[e.mesh], at.plane)
+        else:
+            pose = pose_of(item, at.plane)
+        if _is_at(pose, e.pose):
+            continue
+        pose = replace(pose, mirrored=e.pose.mirrored)
+        ring = pose.to_scene(e.scale * np.array(e.stretch) * np.array(e.footprint or [(0.0, 0.0)]))
+        parent = at.scene.parent_of_shape(ring, CONTAINED_SHARE) if e.footprint else None
+        parent = parent or at.scene.parent_of(pose.position)
+        if parent is None:
+            raise InputError(f"object {item.name!r} lies outside every polygon; put it into one to keep it there")
+        found[e.key] = Pin.of(pose, parent, e.scale)
+    return found
+
+
+def _pose_of_placed(item: bpy.types.Object, e: Element, rest: np.ndarray, plane: Plane) -> Pose:
+    """The pose that a result of a placement stands for: the centre and the direction of its rectangle."""
+    frame = np.array(item.matrix_world) @ np.linalg.inv(np.diag((*np.multiply(e.scale, e.stretch), 1.0, 1.0)) @ rest)
+    x, y, _ = plane.to_plane([frame[:3, 3]])[0]
+    axis = plane.matrix[:3, :3].T @ frame[:3, 0]
+    return Pose((x, y), float(np.arctan2(axis[1], axis[0])))
+
+
+def _is_at(one: Pose, other: Pose) -> bool:
+    turned = abs(np.angle(np.exp(1j * (one.angle - other.angle))))
+    return bool(np.hypot(*np.subtract(one.position, other.position)) < UNMOVED and turned < UNMOVED)

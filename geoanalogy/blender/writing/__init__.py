@@ -1,0 +1,1 @@
+"""What the engine has made as objects of a Blender scene: instances, masses, materials, pictures."""

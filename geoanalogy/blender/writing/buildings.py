@@ -1,0 +1,345 @@
+"""What an operations tree has built, as a .blend: masses as one mesh per label, library objects as instances."""
+
+import os
+import zlib
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ...batch.product import Masses, Product, product_of, together
+from ...errors import InputError
+from ...geometry.extrusion import triangulated
+from ...geometry.mesh import Mesh, joined
+from ...geometry.scene import Scene
+from ...operations.applied import Applied
+from .. import names
+from ..names import UNLABELLED
+from .library_objects import holder, put
+from .outdoors import furnish
+from .picture import draw_picture
+from .shading import FINISHES, VARIATION, material
+
+Array = NDArray[np.float64]
+
+#: How far parcels lie below what stands on them, scene units: flat elements at height 0 are seen.
+DROP = 0.03
+
+#: Material of parcels whose label says nothing about what they look like.
+PARCEL = "parcel"
+
+#: Labels of streets on maps.
+STREETS = ("street", "road")
+
+#: The collection of parcels, ground, lamps and cameras.
+SURROUNDINGS = "Surroundings"
+
+
+@dataclass(frozen=True)
+class Built:
+    """What has been written.
+
+    Attributes
+    ----------
+    masses : int
+        Meshes, one per label.
+    instances : int
+        Library objects in their places.
+    problems : tuple of str
+        A sentence for every library object that is missing.
+    """
+
+    masses: int
+    instances: int
+    problems: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Results:
+    """What is to be written.
+
+    Attributes
+    ----------
+    output, render : Path or None
+        The .blend and the .png.
+    library : Path or None
+        A .blend with the library objects; of those that it has not, plain boxes and panels take the places.
+    tiles : Path or None
+        Folder of a .blend per tile, which the output then links.
+    """
+
+    output: Path | None = None
+    render: Path | None = None
+    library: Path | None = None
+    tiles: Path | None = None
+
+
+def write(
+    ground: Scene,
+    products: Iterable[tuple[str, Product]],
+    results: Results,
+    properties: Mapping[str, object] | None = None,
+    report: Callable[[float, str], object] = lambda *_: None,
+) -> Built:
+    """Write what has been built as a .blend, a picture of it, or both.
+
+    The open file makes room for a fresh one. Files of those names stay as they were until the new ones are complete.
+
+    Parameters
+    ----------
+    ground : Scene
+        All parcels.
+    products : iterable of (str, Product)
+        With the names of their tiles.
+    results : Results
+    properties : mapping, optional
+        Custom properties of the scene.
+    report : callable (fraction, text), optional
+        Called before each part of the work, which is not stopped any more.
+
+    Returns
+    -------
+    Built
+
+    Raises
+    ------
+    InputError
+        Where the library cannot be read, or nothing was built that could be drawn.
+    OSError
+        When a file cannot be written.
+    """
+    if results.tiles is None:
+        report(1.0, "writing")
+        scene = _fresh()
+        built = fill(scene, ground, together(product for _, product in products), results.library)
+    else:
+        scene, built = _linked(ground, products, results, report)
+    for name, value in (properties or {}).items():
+        scene[name] = value
+    # The picture first: where it fails, nothing has been written.
+    if results.render is not None:
+        report(1.0, "drawing")
+        with _whole(results.render) as part:
+            draw_picture(scene, part)
+    if results.output is not None:
+        _save(results.output)
+    return built
+
+
+def _fresh() -> bpy.types.Scene:
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True, load_ui=False)
+    return bpy.context.scene
+
+
+@contextmanager
+def _whole(path: Path):
+    """A name beside a file, which takes the file's place where all goes well."""
+    part = path.with_name(f"{path.stem}.{os.getpid()}.part{path.suffix}")
+    try:
+        yield part
+        if not part.is_file() or not part.stat().st_size:
+            raise OSError(f"cannot write {path}: Blender left no file there.")
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
+def _save(path: Path) -> None:
+    """Save the open file under a name that it does not keep."""
+    with _whole(path) as part:
+        try:
+            bpy.ops.wm.save_as_mainfile(filepath=str(part), copy=True, compress=True, check_existing=False)
+        except RuntimeError as error:
+            raise OSError(f"cannot write {path}: {str(error).strip()}") from None
+
+
+def _linked(
+    ground: Scene, products: Iterable[tuple[str, Product]], results: Results, report: Callable[[float, str], object]
+) -> tuple[bpy.types.Scene, Built]:
+    """A .blend per tile, and a scene that links them."""
+    folder = results.tiles
+    folder.mkdir(parents=True, exist_ok=True)
+    written: list[tuple[str, Path]] = []
+    points, problems, instances = [], {}, 0
+    for name, product in products:
+        report(1.0, f"writing {name}")
+        scene = _fresh()
+        built, extent, _ = _buildings(scene, product, results.library, Scene([]))
+        points.append(extent)
+        problems.update(dict.fromkeys(built.problems))
+        instances += built.instances
+        whole = bpy.data.collections.new(name)
+        for part in [c for c in scene.collection.children if c.name != "Library"]:
+            scene.collection.children.unlink(part)
+            whole.children.link(part)
+        scene.collection.children.link(whole)
+        path = folder / f"{name}.blend"
+        _save(path)
+        written.append((name, path))
+    scene = _fresh()
+    base = results.output or results.render
+    for name, path in written:
+        with bpy.data.libraries.load(str(path), link=True) as (_, brought):
+            brought.collections = [name]
+        scene.collection.children.link(brought.collections[0])
+    for library in bpy.data.libraries:
+        if base is not None and Path(library.filepath).parent == folder:
+            library.filepath = f"//{Path(os.path.relpath(library.filepath, base.parent)).as_posix()}"
+    extent, _, standing = put(scene, together([]).placed, results.library, ground)
+    points += [extent, _surroundings(scene, ground, standing)]
+    _place_to_look_from(scene, points, ground)
+    return scene, Built(len(written), instances, tuple(problems))
+
+
+def build(scene: bpy.types.Scene, applied: Applied, library: Path | None) -> Built:
+    """Fill a scene with what an operations tree has built, and with what it takes to look at it.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        An empty one.
+    applied : Applied
+    library : Path or None
+
+    Returns
+    -------
+    Built
+
+    Raises
+    ------
+    InputError
+        Where the library cannot be read, or nothing was built that could be drawn.
+    """
+    ground = applied.layout.ground
+    facts = {"parcels": [], "elements": len(applied), "problems": [], "known": 0, "surfaces": 0, "seconds": {}}
+    return fill(scene, ground, product_of(applied, {str(p.id): str(p.id) for p in ground.polygons}, facts), library)
+
+
+def fill(scene: bpy.types.Scene, ground: Scene, product: Product, library: Path | None) -> Built:
+    """Fill a scene with what has been built on parcels, and with what it takes to look at it.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        An empty one.
+    ground : Scene
+    product : Product
+    library : Path or None
+
+    Returns
+    -------
+    Built
+
+    Raises
+    ------
+    InputError
+        Where the library cannot be read, or nothing was built that could be drawn.
+    """
+    built, extent, standing = _buildings(scene, product, library, ground)
+    _place_to_look_from(scene, [extent, _surroundings(scene, ground, standing)], ground)
+    return built
+
+
+def _buildings(
+    scene: bpy.types.Scene, product: Product, library: Path | None, ground: Scene
+) -> tuple[Built, Array, frozenset[str]]:
+    """Put masses and library objects into the collections of their labels.
+
+    Returns also the points that they lie within, and which of them stand for polygons of the ground.
+    """
+    masses = product.masses
+    by_label: dict[str, list[int]] = {}
+    for k, label in enumerate(masses.labels):
+        by_label.setdefault(label or UNLABELLED, []).append(k)
+    for label, those in by_label.items():
+        mass = bpy.data.objects.new(label, _mass(label, masses, those))
+        mass[names.LABEL] = label
+        holder(scene, label).objects.link(mass)
+    extent, problems, standing = put(scene, product.placed, library, ground)
+    return Built(len(by_label), len(product.placed), problems), np.concatenate([_corners(masses), extent]), standing
+
+
+def _mass(label: str, masses: Masses, those: Sequence[int]) -> bpy.types.Mesh:
+    """The meshes of a label as one, whose faces know which parcel they are of."""
+    singles = [masses.single(k) for k in those]
+    made = mesh_data(label, joined(singles))
+    lots = [zlib.crc32(masses.parcels[k].encode()) / 0xFFFFFFFF for k in those]
+    varied = np.repeat(np.array(lots, np.float32), [len(single.faces) for single in singles])
+    made.attributes.new(VARIATION, "FLOAT", "FACE").data.foreach_set("value", varied)
+    return made
+
+
+def _corners(masses: Masses) -> Array:
+    """Corners of the boxes of meshes."""
+    if not len(masses) or not len(masses.mesh.vertices):
+        return np.zeros((0, 3))
+    starts = masses.vertex_start[:-1][np.diff(masses.vertex_start) > 0]
+    low = np.minimum.reduceat(masses.mesh.vertices, starts)
+    high = np.maximum.reduceat(masses.mesh.vertices, starts)
+    choice = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
+    return (low[:, None] + choice * (high - low)[:, None]).reshape(-1, 3)
+
+
+def _surroundings(scene: bpy.types.Scene, ground: Scene, standing: frozenset[str]) -> Array:
+    """The parcels but those that something stands for, and the points that they lie within."""
+    parcels = _parcels(ground, standing)
+    if len(parcels.faces):
+        holder(scene, SURROUNDINGS).objects.link(bpy.data.objects.new("Parcels", mesh_data("Parcels", parcels)))
+    return parcels.vertices
+
+
+def _place_to_look_from(scene: bpy.types.Scene, points: Sequence[Array], ground: Scene) -> None:
+    everything = np.concatenate(points)
+    if not len(everything):
+        raise InputError("nothing was built and there are no parcels; check the labels of the parcels")
+    # Between the streets of a map grass grows; a plan without any stands on the street itself.
+    finish = "verge" if any(p.label in STREETS for p in ground.polygons) else "ground"
+    furnish(scene, holder(scene, SURROUNDINGS), everything, DROP, finish)
+
+
+def mesh_data(name: str, mesh: Mesh) -> bpy.types.Mesh:
+    """An engine mesh as Blender's: its triangles, texture coordinates and materials.
+
+    Parameters
+    ----------
+    name : str
+    mesh : Mesh
+
+    Returns
+    -------
+    bpy.types.Mesh
+    """
+    made = bpy.data.meshes.new(name)
+    made.vertices.add(len(mesh.vertices))
+    made.vertices.foreach_set("co", mesh.vertices.astype(np.float32).ravel())
+    made.loops.add(3 * len(mesh.faces))
+    made.loops.foreach_set("vertex_index", mesh.faces.astype(np.int32).ravel())
+    made.polygons.add(len(mesh.faces))
+    made.polygons.foreach_set("loop_start", np.arange(0, 3 * len(mesh.faces), 3, dtype=np.int32))
+    made.polygons.foreach_set("material_index", mesh.material_index.astype(np.int32))
+    made.uv_layers.new(name="UVMap").data.foreach_set("uv", mesh.uv.astype(np.float32).ravel())
+    for finish in mesh.materials:
+        made.materials.append(material(finish))
+    made.update(calc_edges=True)
+    made.shade_flat()
+    return made
+
+
+def _parcels(ground: Scene, standing: frozenset[str]) -> Mesh:
+    """The ground's polygons, smaller ones above those that they lie in."""
+    made = []
+    for polygon in ground.polygons:
+        if polygon.label in standing:
+            continue
+        above, depth = ground.parent(str(polygon.id)), 1
+        while above is not None:
+            above, depth = ground.parent(str(above.id)), depth + 1
+        faces, points = triangulated(polygon.rings), np.concatenate(polygon.rings)
+        flat = np.column_stack([points, np.full(len(points), -DROP / depth)])
+        finish = polygon.label if polygon.label and polygon.label.lower().split()[-1] in FINISHES else PARCEL
+        made.append(Mesh(flat, faces, points[faces], (finish,), np.zeros(len(faces), dtype=np.intp)))
+    return joined(made)
