@@ -19,7 +19,7 @@ from conftest import ADDON, INSIDE_BLENDER, ROOT, build_extension, engine_twins,
 ALLOWED = re.compile(
     r"__init__\.py|blender_manifest\.toml|LICENSE|README\.md"
     r"|(geoanalogy|operators|panels)/([a-z0-9_]+/)*[a-z0-9_]+\.py"
-    r"|geoanalogy/py\.typed|geoanalogy/blender/assets/[a-z0-9_]+\.blend"
+    r"|geoanalogy/py\.typed|geoanalogy/formats/labels\.json"
     r"|wheels/(manifold3d|scipy|shapely)-[\w.]+-[\w.]+-[\w.]+-[\w.]+\.whl"
 )
 PYTHON_HERE = ".".join(platform.python_version_tuple()[:2])
