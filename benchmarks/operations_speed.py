@@ -16,13 +16,10 @@ from pathlib import Path
 import numpy as np
 
 import geoanalogy as ga
+from geoanalogy.batch.computing import TimedEvaluations
 from geoanalogy.geometry.boolean import combined
 from geoanalogy.geometry.extrusion import extrude
 from geoanalogy.geometry.solid import Solid
-from geoanalogy.operations.evaluation import Evaluations
-from geoanalogy.operations.layout import Layout
-from geoanalogy.operations.node import Node
-from geoanalogy.operations.placing import Placing
 from geoanalogy.progress import Stepper
 from sample_blends.houses.plots import TYPES, quarter
 
@@ -32,25 +29,12 @@ TREES = Path(__file__).resolve().parent.parent / "sample_blends" / "houses"
 OPERATIONS = 50
 
 
-class TimedEvaluations(Evaluations):
-    """Evaluations that know how long each kind of operation took, and may forget what they have evaluated."""
-
-    def __init__(self, forget: bool = False) -> None:
-        super().__init__()
-        self.forget = forget
-        self.seconds: dict[str, float] = {}
-
-    def steps(self, node: Node, layout: Layout, seed: int) -> Stepper[tuple[Layout, ...]]:
-        begin = time.process_time()
-        result = yield from super().steps(node, layout, seed)
-        kind = "placement" if isinstance(node.operation, Placing) else node.operation.type
-        self.seconds[kind] = self.seconds.get(kind, 0.0) + time.process_time() - begin
-        return result
+class ForgetfulEvaluations(TimedEvaluations):
+    """Timed evaluations that evaluate every surface anew."""
 
     def _on_surface(self, *arguments: object) -> Stepper[tuple[ga.Element, ...]]:
-        if self.forget:
-            self._surfaces.clear()
-            self._layouts.clear()  # what placements remember of a scene goes with it
+        self._surfaces.clear()
+        self._layouts.clear()  # what placements remember of a scene goes with it
         found: tuple[ga.Element, ...] = yield from super()._on_surface(*arguments)  # type: ignore[arg-type]
         return found
 
@@ -62,7 +46,7 @@ def houses(forget: bool, count: int) -> tuple[list[tuple[object, ...]], float, i
     for label in TYPES:
         scene = ga.Scene([p for p in every if p.label == label][:count])
         tree = ga.OperationsTree.load(TREES / f"{label}.json")
-        tree = ga.OperationsTree(tree.nodes, TimedEvaluations(forget))
+        tree = ga.OperationsTree(tree.nodes, ForgetfulEvaluations() if forget else TimedEvaluations())
         begin = time.process_time()
         applied = tree.apply(scene, seed=7)
         taken = time.process_time() - begin
