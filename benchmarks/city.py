@@ -34,6 +34,9 @@ MAPS = ("closes", "curves", "grid")
 #: Parcels of a tile: enough tiles to share out, however few parcels there are.
 PER_TILE = 6
 
+#: Numbers of buildings, and those that take long.
+COUNTS, MANY = (10, 30), (100, 1000, 10_000)
+
 #: Distance between two copies of the maps, metres.
 APART = 2000.0
 
@@ -135,9 +138,8 @@ def in_blender(program: str, *arguments: object) -> list[float] | None:
 def buildings(full: bool) -> Table:
     """From ten buildings on."""
     rows = []
-    counts = (10, 30, 100, 1000, 10_000) if full else (10, 30)
     whole = tree()
-    for count in counts:
+    for count in (*COUNTS, *MANY) if full else COUNTS:
         job, _, folder = built(whole, parcels(count))
         found = facts(job)
         memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
