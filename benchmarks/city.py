@@ -9,6 +9,7 @@ of its own, cuts it out by a boolean modifier, and remembers nothing.
 
 from __future__ import annotations
 
+import importlib.util
 import resource
 import subprocess
 import sys
@@ -83,7 +84,7 @@ WRITE = """
 import sys, time, resource, os
 from pathlib import Path
 from geoanalogy.batch.product import Product
-from geoanalogy.blender import buildings
+from geoanalogy.blender.writing import buildings
 from geoanalogy.geometry.scene import Scene
 import bpy
 folder = Path(sys.argv[1])
@@ -129,10 +130,12 @@ os._exit(0)
 
 def in_blender(program: str, *arguments: object) -> list[float] | None:
     """The figures that a program prints, run in a process that has the bpy module; None where there is none."""
+    if importlib.util.find_spec("bpy") is None:
+        return None
     command = [sys.executable, "-c", program, *map(str, arguments)]
-    done = subprocess.run(command, cwd=HERE.parent.parent, capture_output=True, text=True, check=False)
-    lines = [line for line in done.stdout.splitlines() if line.startswith("RESULT")]
-    return [float(v) for v in lines[-1].split()[1:]] if lines else None
+    done = subprocess.run(command, cwd=HERE.parent.parent, capture_output=True, text=True, check=True)
+    (line,) = [line for line in done.stdout.splitlines() if line.startswith("RESULT")]
+    return [float(v) for v in line.split()[1:]]
 
 
 def buildings(full: bool) -> Table:
