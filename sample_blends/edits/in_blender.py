@@ -20,8 +20,9 @@ from geoanalogy.progress import run
 
 from .. import stage
 from ..library import ASSETS
-from ..library.facades import PARTS, Part
+from ..library.facades import PARTS
 from ..library.meshes import add_asset, mesh_of
+from ..library.parts import Part
 from .edit import AnyEdit, ArrayEdit, Edit, GroupEdit, Place, PlacementEdit, ScatterEdit
 
 # What is upright stands on a wall: its z along the wall's y, its front along the wall's z.

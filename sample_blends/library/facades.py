@@ -2,55 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from functools import cache
-
 import numpy as np
 
-from .solids import Solid, box, cylinder, joined
-
-
-@dataclass(frozen=True)
-class Part:
-    """One part.
-
-    Attributes
-    ----------
-    name, label : str
-    size : (float, float)
-        Width and height in metres.
-    build : callable
-        Makes the solid; called once, through :meth:`solid`.
-    """
-
-    name: str
-    label: str
-    size: tuple[float, float]
-    build: Callable[[float, float], list[Solid]]
-
-    def solid(self) -> Solid:
-        """The geometry."""
-        return _built(self.name)
-
+from .parts import Part, entering
+from .solids import Solid, box, cylinder
 
 PARTS: dict[str, Part] = {}
 
-
-@cache
-def _built(name: str) -> Solid:
-    part = PARTS[name]
-    return joined(part.build(*part.size))
-
-
-def part(name: str, width: float, height: float, label: str | None = None) -> Callable:
-    """Enter the decorated builder into the register; the label is the name where none is given."""
-
-    def enter(build: Callable[[float, float], list[Solid]]) -> Callable[[float, float], list[Solid]]:
-        PARTS[name] = Part(name, label or name, (width, height), build)
-        return build
-
-    return enter
+part = entering(PARTS)
 
 
 def _slab(x0: float, x1: float, z0: float, z1: float, depth: float, finish: str, bevel: float = 0.0) -> Solid:

@@ -5,55 +5,14 @@ On a worktop, y runs away from the wall.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from functools import cache
-
 import numpy as np
 
-from .solids import Solid, box, cylinder, ellipsoid, joined, lathe, loft, tube
+from .parts import Part, entering
+from .solids import Solid, box, cylinder, ellipsoid, lathe, loft, tube
 
+FITTINGS: dict[str, Part] = {}
 
-@dataclass(frozen=True)
-class Fitting:
-    """One fitting.
-
-    Attributes
-    ----------
-    name, label : str
-    size : (float, float)
-        Width and height in metres.
-    build : callable
-        Makes the solid; called once, through :meth:`solid`.
-    """
-
-    name: str
-    label: str
-    size: tuple[float, float]
-    build: Callable[[float, float], Sequence[Solid]]
-
-    def solid(self) -> Solid:
-        """The geometry."""
-        return _built(self.name)
-
-
-FITTINGS: dict[str, Fitting] = {}
-
-
-@cache
-def _built(name: str) -> Solid:
-    made = FITTINGS[name]
-    return joined(made.build(*made.size))
-
-
-def fitting(name: str, width: float, height: float, label: str | None = None) -> Callable:
-    """Enter the decorated builder into the register; the label is the name where none is given."""
-
-    def enter(build: Callable[[float, float], Sequence[Solid]]) -> Callable[[float, float], Sequence[Solid]]:
-        FITTINGS[name] = Fitting(name, label or name, (width, height), build)
-        return build
-
-    return enter
+fitting = entering(FITTINGS)
 
 
 def _panel(
