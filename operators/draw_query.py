@@ -2,16 +2,13 @@
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, StringProperty
-from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
 
 from ..geoanalogy.blender.regions.drawings import read_drawn_lines
 from ..geoanalogy.blender.regions.queries import add_query
 from ..geoanalogy.blender.regions.sketch import QueryOverlay, QuerySketch
 from ..geoanalogy.errors import InputError
-from .edit import Edit, needs_object_mode
-
-#: Events that turn and move the view.
-VIEW_EVENTS = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE"}
+from .edit import needs_object_mode
+from .view_drawing import DONE_EVENTS, ViewDrawing
 
 MODES = [
     ("LASSO", "Lasso", "Drag round the region", "BORDERMOVE", 0),
@@ -33,7 +30,7 @@ class GEOANALOGY_PG_query_point(bpy.types.PropertyGroup):
     first: BoolProperty(name="First", description="Whether a stroke of the brush begins here")
 
 
-class GEOANALOGY_OT_draw_query(Edit, bpy.types.Operator):
+class GEOANALOGY_OT_draw_query(ViewDrawing, bpy.types.Operator):
     """Outline the region of the drawing that is to be found elsewhere"""
 
     bl_idname = "geoanalogy.draw_query"
@@ -76,22 +73,15 @@ class GEOANALOGY_OT_draw_query(Edit, bpy.types.Operator):
             return {"CANCELLED"}
         self.points.clear()
         self._dragging = False
-        self._area = context.area
-        self._region = next(region for region in context.area.regions if region.type == "WINDOW")
-        self._overlay = QueryOverlay(self._sketch)
         context.workspace.status_text_set(f"{HELP[self.mode]} — Esc: cancel")
-        context.window.cursor_modal_set("PAINT_CROSS" if self.mode == "BRUSH" else "CROSSHAIR")
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
+        return self.begin(context, QueryOverlay(self._sketch), "PAINT_CROSS" if self.mode == "BRUSH" else "CROSSHAIR")
 
     def modal(self, context, event):
         self._area.tag_redraw()
         pressed, settings = event.value == "PRESS", context.scene.geoanalogy
         if event.type == "ESC" and pressed:
-            self._end(context)
-            self.report({"INFO"}, "Cancelled; nothing has changed")
-            return {"CANCELLED"}
-        if event.type in {"RET", "NUMPAD_ENTER", "SPACE", "RIGHTMOUSE"} and pressed:
+            return self.cancelled(context)
+        if event.type in DONE_EVENTS and pressed:
             return self._finish(context)
         if event.type in {"BACK_SPACE", "DEL"} and pressed:
             self._sketch.take_back()
@@ -100,7 +90,7 @@ class GEOANALOGY_OT_draw_query(Edit, bpy.types.Operator):
         elif event.type == "MOUSEMOVE" and self._dragging:
             self._drag(context, event)
         elif event.type == "LEFTMOUSE" and pressed:
-            point = self._point(event) if self._is_inside(event) else None
+            point = self._point(event) if self.is_inside(event) else None
             if point is None:
                 return {"PASS_THROUGH"}
             self._dragging = True
@@ -113,7 +103,7 @@ class GEOANALOGY_OT_draw_query(Edit, bpy.types.Operator):
             self._dragging = False
             if self.mode != "BRUSH":
                 return self._finish(context)
-        elif event.type in VIEW_EVENTS or event.type.startswith("NUMPAD_") or not self._is_inside(event):
+        elif self.is_of_view(event):
             return {"PASS_THROUGH"}
         return {"RUNNING_MODAL"}
 
@@ -123,7 +113,7 @@ class GEOANALOGY_OT_draw_query(Edit, bpy.types.Operator):
             self._sketch.move(point)
 
     def _finish(self, context):
-        self._end(context)
+        self.end(context)
         for stroke in self._sketch.strokes:
             for i, co in enumerate(stroke):
                 point = self.points.add()
@@ -131,27 +121,9 @@ class GEOANALOGY_OT_draw_query(Edit, bpy.types.Operator):
         self.radius = self._sketch.radius if self.mode == "BRUSH" else 0.0
         return self.execute(context)
 
-    def _is_inside(self, event):
-        x, y = event.mouse_x - self._region.x, event.mouse_y - self._region.y
-        over = any(
-            r.x <= event.mouse_x < r.x + r.width and r.y <= event.mouse_y < r.y + r.height
-            for r in self._area.regions
-            if r != self._region and r.width > 1 and r.height > 1
-        )
-        return 0 <= x < self._region.width and 0 <= y < self._region.height and not over
-
     def _point(self, event, aside=0):
         """The point of the drawing's plane under the mouse, or some pixels beside it."""
-        at = event.mouse_x - self._region.x + aside, event.mouse_y - self._region.y
-        view = self._area.spaces.active.region_3d
-        origin = region_2d_to_origin_3d(self._region, view, at)
-        return self._sketch.sight(origin, region_2d_to_vector_3d(self._region, view, at))
-
-    def _end(self, context):
-        self._overlay.remove()
-        context.window.cursor_modal_restore()
-        context.workspace.status_text_set(None)
-        self._area.tag_redraw()
+        return self._sketch.sight(*self.sight(event, aside))
 
     def draw(self, context):
         layout = self.layout

@@ -2,15 +2,12 @@
 
 import bpy
 from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty, StringProperty
-from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
 
 from ..geoanalogy.blender.overlay import Overlay
 from ..geoanalogy.blender.rectangle_drawing import Sketch, add_rectangles, sites_to_draw_on
 from ..geoanalogy.errors import InputError
-from .edit import Edit, needs_object_mode
-
-#: Events that turn and move the view.
-VIEW_EVENTS = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE"}
+from .edit import needs_object_mode
+from .view_drawing import DONE_EVENTS, ViewDrawing
 
 
 class GEOANALOGY_PG_corners(bpy.types.PropertyGroup):
@@ -21,7 +18,7 @@ class GEOANALOGY_PG_corners(bpy.types.PropertyGroup):
     target: FloatProperty(name="Preference", min=0.0, max=1.0, default=1.0, subtype="FACTOR")
 
 
-class GEOANALOGY_OT_draw_rectangles(Edit, bpy.types.Operator):
+class GEOANALOGY_OT_draw_rectangles(ViewDrawing, bpy.types.Operator):
     """Drag rectangles across labelled faces: examples of where something belongs, or of where it does not"""
 
     bl_idname = "geoanalogy.draw_rectangles"
@@ -50,23 +47,16 @@ class GEOANALOGY_OT_draw_rectangles(Edit, bpy.types.Operator):
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         self.rectangles.clear()
-        self._area = context.area
-        self._region = next(region for region in context.area.regions if region.type == "WINDOW")
-        self._overlay = Overlay(self._sketch)
         self._tell(context)
-        context.window.cursor_modal_set("CROSSHAIR")
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
+        return self.begin(context, Overlay(self._sketch), "CROSSHAIR")
 
     def modal(self, context, event):
         self._area.tag_redraw()
         pressed = event.value == "PRESS"
         if event.type == "ESC" and pressed:
-            self._end(context)
-            self.report({"INFO"}, "Cancelled; nothing has changed")
-            return {"CANCELLED"}
-        if event.type in {"RET", "NUMPAD_ENTER", "SPACE", "RIGHTMOUSE"} and pressed:
-            self._end(context)
+            return self.cancelled(context)
+        if event.type in DONE_EVENTS and pressed:
+            self.end(context)
             for start, end, target in self._sketch.done:
                 one = self.rectangles.add()
                 one.start, one.end, one.target = start, end, target
@@ -76,34 +66,19 @@ class GEOANALOGY_OT_draw_rectangles(Edit, bpy.types.Operator):
         elif event.type == "N" and pressed:
             self._sketch.target = 1.0 - self._sketch.target
         elif event.type == "MOUSEMOVE" and self._sketch.dragging:
-            self._sketch.move(*self._sight(event))
+            self._sketch.move(*self.sight(event))
         elif event.type == "LEFTMOUSE" and pressed:
-            if not self._is_inside(event):
+            if not self.is_inside(event):
                 return {"PASS_THROUGH"}
-            if not self._sketch.press(*self._sight(event)):
+            if not self._sketch.press(*self.sight(event)):
                 self.report({"WARNING"}, "There is no labelled face here; label the face in step 1")
         elif event.type == "LEFTMOUSE" and event.value == "RELEASE" and self._sketch.dragging:
-            self._sketch.move(*self._sight(event))
+            self._sketch.move(*self.sight(event))
             self._sketch.release()
-        elif event.type in VIEW_EVENTS or event.type.startswith("NUMPAD_") or not self._is_inside(event):
+        elif self.is_of_view(event):
             return {"PASS_THROUGH"}
         self._tell(context)
         return {"RUNNING_MODAL"}
-
-    def _is_inside(self, event):
-        x, y = event.mouse_x - self._region.x, event.mouse_y - self._region.y
-        over = any(
-            r.x <= event.mouse_x < r.x + r.width and r.y <= event.mouse_y < r.y + r.height
-            for r in self._area.regions
-            if r != self._region and r.width > 1 and r.height > 1
-        )
-        return 0 <= x < self._region.width and 0 <= y < self._region.height and not over
-
-    def _sight(self, event):
-        """The line of sight under the mouse."""
-        at = event.mouse_x - self._region.x, event.mouse_y - self._region.y
-        view = self._area.spaces.active.region_3d
-        return region_2d_to_origin_3d(self._region, view, at), region_2d_to_vector_3d(self._region, view, at)
 
     def _tell(self, context):
         current = self._sketch.current()
@@ -112,12 +87,6 @@ class GEOANALOGY_OT_draw_rectangles(Edit, bpy.types.Operator):
         context.workspace.status_text_set(
             f"{size}, {kind} — drag across a face; N: wanted or not, Backspace: take back, Enter: done, Esc: cancel"
         )
-
-    def _end(self, context):
-        self._overlay.remove()
-        context.window.cursor_modal_restore()
-        context.workspace.status_text_set(None)
-        self._area.tag_redraw()
 
     def draw(self, context):
         layout = self.layout
