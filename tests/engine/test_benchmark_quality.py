@@ -69,6 +69,47 @@ def test_fixtures_of_rooms_that_are_alike_are_found(tmp_path, monkeypatch):
     monkeypatch.setenv("GEOANALOGY_DATA", str(tmp_path))
     monkeypatch.setattr(quality, "flats", lambda folder: iter(()))
     monkeypatch.setattr(quality, "offices", lambda folder, sources: iter(()))
-    (table,) = quality.tables()
-    (row,) = table.rows
+    monkeypatch.setattr(quality, "best_place", lambda folder: (6, 14))
+    shares, fates = quality.tables()
+    (row,) = shares.rows
     assert row[:6] == ("toilet", 1, quality.TARGETS, "1.00", "1.00", "1.00")
+    assert fates.rows == [("toilet", quality.TARGETS, 0, 0, 0, 0, 0)]
+    assert "more than 6 of the 14 offices" in fates.note
+
+
+@pytest.mark.parametrize(
+    ("pose", "name"),
+    [
+        ((1.0, 1.0, 0.0), "right"),
+        ((3.0, 1.0, np.pi), "mirrored"),
+        ((1.9, 1.0, 0.0), "along the wall"),
+        ((1.0, 0.5, 0.0), "along the wall"),
+        ((2.3, 1.0, np.pi), "mirrored, along the wall"),
+        ((1.0, 1.0, np.pi / 2), "elsewhere"),
+        (None, "no result"),
+    ],
+)
+def test_a_first_result_is_right_or_another_good_answer(pose, name):
+    assert quality.fate(pose, target(), "bed") == name
+
+
+def office(number, door, desk):
+    return {
+        "id": f"o{number}",
+        "label": "office",
+        "storey": "0",
+        "polygon": [[0, 0], [2.8, 0], [2.8, 4.4], [0, 4.4]],
+        "doors": [{"segment": door}],
+        "windows": [],
+        "furniture": [
+            {"label": label, "center": desk, "angle_deg": 0, "polygon": [desk]} for label in ("desk", "chair")
+        ],
+    }
+
+
+def test_the_best_single_place_is_counted_from_the_door(tmp_path):
+    # The second room is the first one turned by 180°, the third has its desk at the other wall.
+    below, above = [[0.2, 0], [1.2, 0]], [[2.6, 4.4], [1.6, 4.4]]
+    rooms = [office(1, below, [0.4, 2.0]), office(2, above, [2.4, 2.5]), office(3, below, [2.4, 2.0])]
+    (tmp_path / "AC11-Institute-Var-2-IFC.json").write_text(json.dumps({"rooms": rooms}))
+    assert quality.best_place(tmp_path) == (2, 3)
