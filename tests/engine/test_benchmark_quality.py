@@ -5,13 +5,14 @@ import json
 import numpy as np
 import pytest
 
+from benchmarks import poses_cases as cases
 from benchmarks import poses_quality as quality
 
 ROOM = np.array([(0.0, 0), (4, 0), (4, 2), (0, 2)])
 
 
 def target(angle=0.0):
-    return quality.Target("r", ROOM, (1.0, 1.0, angle), 0.3)
+    return cases.Target("r", ROOM, (1.0, 1.0, angle), 0.3)
 
 
 @pytest.mark.parametrize(
@@ -34,15 +35,15 @@ def test_what_is_right(pose, label, right):
 
 def test_an_opening_lies_inside_its_room_whichever_way_it_is_drawn():
     for segment in ([(1, 0), (2, 0)], [(2, 0), (1, 0)]):
-        door = quality.opening(segment, ROOM, "door", "d", "r")
-        assert door.bounds == pytest.approx([1, 0, 2, quality.DEPTH])
-    assert quality.opening([(1, 0), (1.01, 0)], ROOM, "door", "d", "r") is None
+        door = cases.opening(segment, ROOM, "door", "d", "r")
+        assert door.bounds == pytest.approx([1, 0, 2, cases.DEPTH])
+    assert cases.opening([(1, 0), (1.01, 0)], ROOM, "door", "d", "r") is None
 
 
 def test_a_ring_in_its_own_frame_is_the_same_seen_from_there():
     pose = (1.0, 2.0, 0.7)
     ring = np.array([(2.0, 2), (3, 5), (0, 1)])
-    assert quality.ga.Pose(pose[:2], pose[2]).to_scene(quality.own_frame(ring, pose)) == pytest.approx(ring)
+    assert cases.ga.Pose(pose[:2], pose[2]).to_scene(cases.own_frame(ring, pose)) == pytest.approx(ring)
 
 
 def test_without_the_data_it_says_so(monkeypatch, capsys):
@@ -64,7 +65,7 @@ def plan(number, width):
 def test_fixtures_of_rooms_that_are_alike_are_found(tmp_path, monkeypatch):
     plans = tmp_path / "r2v_floorplans" / "dev" / "plans.json"
     plans.parent.mkdir(parents=True)
-    plans.write_text(json.dumps([plan(i, 90 + 5 * i) for i in range(quality.TARGETS + 2)]))
+    plans.write_text(json.dumps([plan(i, 90 + 5 * i) for i in range(cases.TARGETS + 2)]))
     (tmp_path / "ifc_rooms" / "dev").mkdir(parents=True)
     monkeypatch.setenv("GEOANALOGY_DATA", str(tmp_path))
     monkeypatch.setattr(quality, "flats", lambda folder: iter(()))
@@ -72,8 +73,8 @@ def test_fixtures_of_rooms_that_are_alike_are_found(tmp_path, monkeypatch):
     monkeypatch.setattr(quality, "best_place", lambda folder: (6, 14))
     shares, fates = quality.tables()
     (row,) = shares.rows
-    assert row[:6] == ("toilet", 1, quality.TARGETS, "1.00", "1.00", "1.00")
-    assert fates.rows == [("toilet", quality.TARGETS, 0, 0, 0, 0, 0)]
+    assert row[:6] == ("toilet", 1, cases.TARGETS, "1.00", "1.00", "1.00")
+    assert fates.rows == [("toilet", cases.TARGETS, 0, 0, 0, 0, 0)]
     assert "more than 6 of the 14 offices" in fates.note
 
 
