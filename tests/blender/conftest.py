@@ -102,6 +102,35 @@ def installed(extension_zip):
     return ADDON
 
 
+BATCH = str(ROOT / "batch.py")
+
+
+def batch_command(*arguments, file=None):
+    """`batch.py` as this Blender runs it, with a file open where one is given."""
+    if INSIDE_BLENDER:
+        opened = [] if file is None else [str(file)]
+        return [bpy.app.binary_path, "--background", *opened, "--python", BATCH, "--", *arguments]
+    assert file is None, "the bpy module opens no file for a program"
+    return [sys.executable, BATCH, *arguments]
+
+
+def run(command, folder):
+    """Run a program in a profile of the folder's own: one without the extension, unless it is put there."""
+    environment = {**os.environ, "BLENDER_USER_RESOURCES": str(folder / "profile")}
+    (folder / "profile").mkdir(exist_ok=True)
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
+
+
+@pytest.fixture(scope="session")
+def profile(tmp_path_factory, extension_zip):
+    """A folder whose profile has the extension, installed by Blender's own command line."""
+    folder = tmp_path_factory.mktemp("installed")
+    command = [bpy.app.binary_path, "--command", "extension", "install-file", "--repo", "user_default", "--enable"]
+    done = run([*command, str(extension_zip)], folder)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder
+
+
 @pytest.fixture(autouse=True)
 def fresh_file(installed):
     """An empty file for each test, and afterwards a clean conscience towards Blender's extension policies.

@@ -1,29 +1,9 @@
 """The batch program as a farm starts it: a process of its own, judged by its exit code."""
 
-import os
-import subprocess
-import sys
-
 import bpy
 import pytest
-from conftest import INSIDE_BLENDER, ROOT
+from conftest import BATCH, INSIDE_BLENDER, batch_command, run
 from flats import bed, face, placed, results, rooms
-
-BATCH = str(ROOT / "batch.py")
-
-
-def run(command, folder):
-    """Run a program in a profile that has no extension."""
-    environment = {**os.environ, "BLENDER_USER_RESOURCES": str(folder / "profile")}
-    (folder / "profile").mkdir(exist_ok=True)
-    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=300)
-
-
-def batch_command(*arguments):
-    """`batch.py` as this Blender runs it."""
-    if INSIDE_BLENDER:
-        return [bpy.app.binary_path, "--background", "--python", BATCH, "--", *arguments]
-    return [sys.executable, BATCH, *arguments]
 
 
 def test_wrong_usage_is_code_2(tmp_path):
@@ -45,16 +25,6 @@ def test_a_result_with_nowhere_to_go_is_code_5(tmp_path):
 
 
 needs_blender = pytest.mark.skipif(not INSIDE_BLENDER, reason="the bpy module has no command line")
-
-
-@pytest.fixture(scope="module")
-def profile(tmp_path_factory, extension_zip):
-    """A profile into which Blender's own command line has installed the extension."""
-    folder = tmp_path_factory.mktemp("installed")
-    command = [bpy.app.binary_path, "--command", "extension", "install-file", "--repo", "user_default", "--enable"]
-    done = run([*command, str(extension_zip)], folder)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return folder
 
 
 @needs_blender
@@ -94,7 +64,7 @@ def test_replay_writes_the_same_scene_and_a_picture(furnished, tmp_path):
     expected = placed()
     arguments = ["--output", str(tmp_path / "out.blend"), "--render", str(tmp_path / "out.png")]
     if INSIDE_BLENDER:
-        done = run([bpy.app.binary_path, "-b", str(furnished), "--python", BATCH, "--", "replay", *arguments], tmp_path)
+        done = run(batch_command("replay", *arguments, file=furnished), tmp_path)
     else:
         done = run(batch_command("replay", str(furnished), *arguments), tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -8,12 +8,11 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from conftest import INSIDE_BLENDER
+from conftest import INSIDE_BLENDER, batch_command, run
 from facades import frame, outline, ring
 from flats import activate, box, bridge, engine, face, operations_tree
 from houses import HEIGHT, SIZES, box_of, corners_of, draw, extrude, houses, parcels, place, solids, volume_of, windows
 from mathutils import Vector
-from test_batch import batch_command, run
 
 EXEC = "EXEC_DEFAULT"
 

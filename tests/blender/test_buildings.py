@@ -6,9 +6,8 @@ import sys
 import bpy
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import INSIDE_BLENDER, ROOT, batch_command, run
 from flats import box, bridge, engine, face
-from test_batch import batch_command, run
 
 HEIGHT = 3.0
 
@@ -34,8 +33,11 @@ def tree():
 
 
 @pytest.fixture
-def files(tmp_path):
+def files(tmp_path, request):
     """A folder with a tree, plots, and a library."""
+    if INSIDE_BLENDER:
+        # Its Python may lack what the extension brings.
+        (tmp_path / "profile").symlink_to(request.getfixturevalue("profile") / "profile")
     tree().save(tmp_path / "tree.json")
     engine().write_scene(plots(), tmp_path / "plots.geojson")
     box("statue", (2.0, 1.0, 4.0))
@@ -158,12 +160,16 @@ def test_the_open_file_may_have_the_parcels(files):
     face("ground", [(0, 0), (10, 0), (10, 20), (0, 20)], "plot")
     path = files / "parcels.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
-    program = (
-        f"import sys, bpy; bpy.ops.wm.open_mainfile(filepath={str(path)!r}); sys.path.insert(0, {str(ROOT)!r}); "
-        "from geoanalogy.command_line import main; "
-        f"sys.exit(main(['apply', '--tree', {str(files / 'tree.json')!r}, '--output', {str(files / 'out.obj')!r}]))"
-    )
-    done = run([sys.executable, "-c", program], files)
+    arguments = ["apply", "--tree", str(files / "tree.json"), "--output", str(files / "out.obj")]
+    if INSIDE_BLENDER:
+        command = batch_command(*arguments, file=path)
+    else:
+        program = (
+            f"import sys, bpy; bpy.ops.wm.open_mainfile(filepath={str(path)!r}); sys.path.insert(0, {str(ROOT)!r}); "
+            f"from geoanalogy.command_line import main; sys.exit(main({arguments!r}))"
+        )
+        command = [sys.executable, "-c", program]
+    done = run(command, files)
     assert "1 elements on 1 parcels" in done.stdout, done.stdout + done.stderr
 
 

@@ -1,13 +1,9 @@
 """Drawings: one region painted, all similar ones painted; lines of every kind, on planes of every direction."""
 
-import os
-import subprocess
-import sys
-
 import bpy
 import numpy as np
 import pytest
-from conftest import INSIDE_BLENDER, ROOT
+from conftest import batch_command, run
 from flats import activate, bed, engine, link, propagate, reload, results, rooms
 from pictures import (
     EXEC,
@@ -33,21 +29,6 @@ from pictures import (
     stroke_drawing,
     world_points,
 )
-
-
-def run(command, folder):
-    """Run a program in a profile that has no extension."""
-    (folder / "profile").mkdir(exist_ok=True)
-    environment = {**os.environ, "BLENDER_USER_RESOURCES": str(folder / "profile")}
-    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
-
-
-def batch_command(*arguments):
-    """`batch.py` as this Blender runs it."""
-    batch = str(ROOT / "batch.py")
-    if INSIDE_BLENDER:
-        return [bpy.app.binary_path, "--background", "--python", batch, "--", *arguments]
-    return [sys.executable, batch, *arguments]
 
 
 def found_of(node):
