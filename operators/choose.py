@@ -4,9 +4,11 @@ import bpy
 from bpy.props import FloatProperty, IntProperty, StringProperty
 
 from ..geoanalogy.blender import names
+from ..geoanalogy.blender.pairs import read_pairs
 from ..geoanalogy.blender.tree.recording import THRESHOLD, choice_steps
+from ..geoanalogy.errors import InputError
 from .edit import LongEdit, needs_object_mode
-from .pose_settings import PoseSettings
+from .pose_settings import MOST_OF, PoseSettings, most_per
 
 
 class GEOANALOGY_OT_choose(PoseSettings, LongEdit, bpy.types.Operator):
@@ -23,6 +25,18 @@ class GEOANALOGY_OT_choose(PoseSettings, LongEdit, bpy.types.Operator):
         name="Threshold", description="Least importance of a result", min=0.0, max=1.0, default=THRESHOLD
     )
     most: IntProperty(name="At Most per Polygon", description="The example counted; 0 is any number", min=0, default=1)
+    shares: StringProperty(
+        name="Shares",
+        description="How often objects are chosen in proportion to the others, 1 unless it is said, as in: oak 3, "
+        "birch 1; 0 is never",
+    )
+    spacing: FloatProperty(
+        name="Spacing",
+        description="Least distance between two results; 0 is as near as they do not touch",
+        min=0.0,
+        subtype="DISTANCE",
+    )
+    most_of: StringProperty(name="In Others", description=MOST_OF)
     seed: IntProperty(name="Seed", description="For other choices", min=0)
 
     @classmethod
@@ -31,22 +45,35 @@ class GEOANALOGY_OT_choose(PoseSettings, LongEdit, bpy.types.Operator):
 
     def steps(self, context):
         """Learn, choose, propagate and record."""
+        items = sorted(context.selected_objects, key=lambda item: item.name)
         node = yield from choice_steps(
             context,
-            sorted(context.selected_objects, key=lambda item: item.name),
+            items,
             self.pose_options(),
             scope=self.scope.strip() or None,
+            weights=self._weights(items),
             seed=self.seed,
             threshold=round(self.threshold, 6),
-            max_per={"": self.most} if self.most else None,
+            max_per=most_per(self.most, self.most_of),
+            spacing=self.spacing or None,
         )
         return f"{node[names.COUNT]} results"
+
+    def _weights(self, items):
+        """The share of every object; empty: equal shares."""
+        shares = read_pairs(self.shares, "share")
+        unknown = sorted(shares.keys() - {item.name for item in items})
+        if unknown:
+            raise InputError(f"the share of {unknown[0]!r} is given, but no such object is selected; check the name")
+        return [shares.get(item.name, 1.0) for item in items] if shares else []
 
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
-        for name in ("scope", "threshold", "most", "seed"):
+        for name in ("scope", "shares", "seed", "threshold", "most", "spacing"):
             layout.prop(self, name)
+        if self.other_parents or not self.use_labels:
+            layout.prop(self, "most_of")
         self.draw_pose_settings(layout)
 
 

@@ -12,7 +12,18 @@ from .edit import LongEdit, needs_object_mode
 _PLAIN = RegionOptions()
 
 #: The settings that are options of the engine.
-SETTINGS = ("mirrored", "branches", "joint_tolerance", "largest_scale", "query_points", "reach", "most")
+SETTINGS = (
+    "mirrored",
+    "branches",
+    "joint_tolerance",
+    "largest_scale",
+    "query_points",
+    "reach",
+    "smoothing_radius",
+    "neighbourhood",
+    "contrast",
+    "most",
+)
 
 
 class GEOANALOGY_OT_find_regions(LongEdit, bpy.types.Operator):
@@ -57,6 +68,28 @@ class GEOANALOGY_OT_find_regions(LongEdit, bpy.types.Operator):
         min=0.001,
         max=1.0,
         default=_PLAIN.reach,
+    )
+    smoothing_radius: FloatProperty(
+        name="Smoothing",
+        description="How far the evidence of single points reaches, as a share of the query's extent",
+        min=0.01,
+        max=1.0,
+        default=_PLAIN.smoothing_radius,
+    )
+    neighbourhood: FloatProperty(
+        name="Neighbourhood",
+        description="How far shapes must deform alike, in distances between query points: more bridges what is hidden",
+        min=0.5,
+        max=10.0,
+        default=_PLAIN.neighbourhood,
+    )
+    contrast: FloatProperty(
+        name="Contrast",
+        description="Least similarity as a share of the best region's: what is much less alike is clutter",
+        min=0.0,
+        max=1.0,
+        default=_PLAIN.contrast,
+        subtype="FACTOR",
     )
     most: IntProperty(name="At Most", description="How many regions are kept", min=1, max=1000, default=_PLAIN.most)
 

@@ -16,6 +16,11 @@ FITS = [
     ("divide", "Divide", "As many objects as fit best, stretched to fill the place"),
 ]
 
+#: How far a place may be from the examples in shape; any size is without bounds.
+TOLERANCES = ("aspect_tolerance", "area_tolerance")
+
+_PLAIN = PlacementOptions()
+
 
 class GEOANALOGY_OT_place(LongEdit, bpy.types.Operator):
     """Learn what the selected examples have in common, and put the object wherever that holds"""
@@ -41,11 +46,52 @@ class GEOANALOGY_OT_place(LongEdit, bpy.types.Operator):
         description="Below 1 for places that are exactly like the examples, above for looser ones",
         min=0.05,
         max=20.0,
-        default=PlacementOptions().tau,
+        default=_PLAIN.tau,
     )
     any_size: BoolProperty(
         name="Any Size", description="Places may be much larger or smaller than the examples, and of other proportions"
     )
+    mirrored: BoolProperty(
+        name="Mirrored",
+        description="Places count too that are found turned inside out, with what bounds them on the wrong side",
+        default=_PLAIN.mirrored,
+    )
+    forbid_intersections: BoolProperty(
+        name="No Intersections",
+        description="Leave out every place that intersects something of a label which no example intersects; without "
+        "it, such places only score lower",
+        default=_PLAIN.forbid_intersections,
+    )
+    overlap: FloatProperty(
+        name="Overlap",
+        description="Share of the smaller of two places that they may have in common",
+        min=0.0,
+        max=1.0,
+        default=_PLAIN.allow_overlaps,
+        subtype="FACTOR",
+    )
+    neighbours: IntProperty(
+        name="Neighbours",
+        description="How many of every label a place has relations to, the nearest ones",
+        min=1,
+        soft_max=10,
+        default=_PLAIN.neighbours,
+    )
+    aspect_tolerance: FloatProperty(
+        name="Proportions",
+        description="How far the proportions of a place may be from those of the examples",
+        min=0.01,
+        soft_max=5.0,
+        default=_PLAIN.aspect_tolerance,
+    )
+    area_tolerance: FloatProperty(
+        name="Areas",
+        description="How far the area of a place may be from that of the examples",
+        min=0.01,
+        soft_max=5.0,
+        default=_PLAIN.area_tolerance,
+    )
+    more: BoolProperty(name="More Options", description="Show the options that are seldom needed")
     name: StringProperty(name="Name", description="Of the operation; empty: the label of what is placed")
 
     @classmethod
@@ -72,14 +118,29 @@ class GEOANALOGY_OT_place(LongEdit, bpy.types.Operator):
         return f"{node[names.COUNT]} objects placed"
 
     def _options(self):
-        tolerances = {"aspect_tolerance": math.inf, "area_tolerance": math.inf} if self.any_size else {}
-        return PlacementOptions(tau=round(self.tau, 6), **tolerances)
+        tolerances = {name: math.inf if self.any_size else round(getattr(self, name), 6) for name in TOLERANCES}
+        return PlacementOptions(
+            tau=round(self.tau, 6),
+            neighbours=self.neighbours,
+            mirrored=self.mirrored,
+            allow_overlaps=round(self.overlap, 6),
+            forbid_intersections=self.forbid_intersections,
+            **tolerances,
+        )
 
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
-        for name in ("threshold", "along", "across", "gap", "most", "tau", "any_size", "name"):
+        for name in ("threshold", "along", "across", "gap", "most", "tau", "any_size", "name", "more"):
             layout.prop(self, name)
+        if not self.more:
+            return
+        for name in ("forbid_intersections", "mirrored", "overlap", "neighbours"):
+            layout.prop(self, name)
+        column = layout.column()
+        column.active = not self.any_size
+        for name in TOLERANCES:
+            column.prop(self, name)
 
 
 def register():

@@ -1,9 +1,9 @@
 """The options of propagation that several operators show in their redo panels."""
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
-from ..geoanalogy.blender.pairs import read_pairs
+from ..geoanalogy.blender.pairs import read_counts, read_pairs
 from ..geoanalogy.blender.tree.recording import LEAST_IMPORTANCE
 from ..geoanalogy.poses.options import PoseOptions
 from ..geoanalogy.relations.table import POSE_RELATIONS
@@ -13,6 +13,31 @@ RELATION_ITEMS = [
     (row.name, row.name.replace("_", " ").capitalize(), f"Whether {row.name.replace('_', ' ')} counts", 1 << i)
     for i, row in enumerate(POSE_RELATIONS)
 ]
+
+MOST_OF = "Most objects in polygons of other labels, as in: room 2, corridor 1"
+
+#: What is shown at once, and what only where more is asked for.
+SHOWN = ("mirror", "scale", "accumulation", "level_set_width", "validate", "clearance")
+MORE = (
+    "symmetries",
+    "use_labels",
+    "other_parents",
+    "weights",
+    "local_importance",
+    "matching_accuracy",
+    "direction_width",
+    "cells",
+    "direction_bins",
+    "candidates",
+)
+
+_PLAIN = PoseOptions()
+
+
+def most_per(count: int, others: str) -> dict[str, int] | None:
+    """How many objects polygons may hold: those like the example's, and those of labels that are typed."""
+    own = {"": count} if count else {}
+    return own | read_counts(others, "number") or None
 
 
 class PoseSettings:
@@ -63,7 +88,7 @@ class PoseSettings:
         description="How far off a relation may be, as a share of the size of the example's polygon",
         min=0.001,
         max=0.5,
-        default=PoseOptions().level_set_width,
+        default=_PLAIN.level_set_width,
     )
 
     clearance: StringProperty(
@@ -75,6 +100,58 @@ class PoseSettings:
         description="How much a label or a relation counts, 0 is not at all and 1 as usual, as in: chair 0, "
         "corner distance 2",
     )
+    other_parents: BoolProperty(
+        name="Other Rooms",
+        description="Polygons of another label than the example's may get results too, where what stands in them is "
+        "alike",
+        default=_PLAIN.other_parents,
+    )
+    local_importance: EnumProperty(
+        name="Importance",
+        items=[
+            ("distance", "Nearer Counts More", "What is near the object counts more than what is far from it"),
+            ("constant", "All Alike", "Near and far count alike"),
+        ],
+        default=_PLAIN.local_importance,
+    )
+    matching_accuracy: EnumProperty(
+        name="Matching",
+        items=[
+            ("features", "By Likeness", "Edges and corners count the more, the more alike they are"),
+            ("constant", "All Alike", "Edges of any length and corners of any angle count alike"),
+        ],
+        default=_PLAIN.matching_accuracy,
+    )
+    direction_width: FloatProperty(
+        name="Turn Tolerance",
+        description="How far off a direction may be",
+        min=0.01,
+        max=3.14,
+        default=_PLAIN.direction_width,
+        subtype="ANGLE",
+    )
+    cells: IntProperty(
+        name="Grid Points",
+        description="In all polygons together: more finds places that are narrow, and takes longer",
+        min=100,
+        soft_max=1_000_000,
+        default=_PLAIN.cells,
+    )
+    direction_bins: IntProperty(
+        name="Directions",
+        description="How many directions are searched by Positions and Directions",
+        min=4,
+        soft_max=360,
+        default=_PLAIN.direction_bins,
+    )
+    candidates: IntProperty(
+        name="Candidates",
+        description="Most places that are kept per polygon, whatever the threshold",
+        min=1,
+        soft_max=100,
+        default=_PLAIN.candidates,
+    )
+    more: BoolProperty(name="More Options", description="Show the options that are seldom needed")
 
     def pose_options(self) -> PoseOptions:
         """The options as the engine takes them; an InputError where clearance or weights cannot be read."""
@@ -90,13 +167,23 @@ class PoseSettings:
             validate=self.validate,
             clearance=read_pairs(self.clearance, "clearance"),
             relation_weights=read_pairs(self.weights, "weight"),
+            other_parents=self.other_parents,
+            local_importance=self.local_importance,
+            matching_accuracy=self.matching_accuracy,
+            direction_width=round(self.direction_width, 6),
+            cells=self.cells,
+            direction_bins=self.direction_bins,
+            candidates=self.candidates,
         )
 
     def draw_pose_settings(self, layout: bpy.types.UILayout) -> None:
         """Draw them into a redo panel."""
-        for name in ("mirror", "scale", "accumulation", "level_set_width", "validate", "clearance"):
+        for name in SHOWN:
             layout.prop(self, name)
-        for name in ("symmetries", "use_labels", "weights"):
+        layout.prop(self, "more")
+        if not self.more:
+            return
+        for name in MORE:
             layout.prop(self, name)
         column = layout.column(heading="Relations")
         column.prop(self, "relations")

@@ -1,12 +1,12 @@
 """Propagate the active object: put it wherever the surroundings are alike."""
 
 import bpy
-from bpy.props import FloatProperty, IntProperty
+from bpy.props import FloatProperty, IntProperty, StringProperty
 
 from ..geoanalogy.blender import names
 from ..geoanalogy.blender.tree.recording import THRESHOLD, pose_steps
 from .edit import LongEdit, needs_active_object, selected_active
-from .pose_settings import PoseSettings
+from .pose_settings import MOST_OF, PoseSettings, most_per
 
 
 class GEOANALOGY_OT_propagate(PoseSettings, LongEdit, bpy.types.Operator):
@@ -24,6 +24,7 @@ class GEOANALOGY_OT_propagate(PoseSettings, LongEdit, bpy.types.Operator):
         min=0,
         default=1,
     )
+    most_of: StringProperty(name="In Others", description=MOST_OF)
     spacing: FloatProperty(
         name="Spacing",
         description="Least distance between two results; 0 is as near as they do not touch",
@@ -42,7 +43,7 @@ class GEOANALOGY_OT_propagate(PoseSettings, LongEdit, bpy.types.Operator):
             selected_active(context),
             self.pose_options(),
             threshold=round(self.threshold, 6),
-            max_per={"": self.most} if self.most else None,
+            max_per=most_per(self.most, self.most_of),
             spacing=self.spacing or None,
         )
         return f"{node[names.COUNT]} results"
@@ -52,6 +53,8 @@ class GEOANALOGY_OT_propagate(PoseSettings, LongEdit, bpy.types.Operator):
         layout.use_property_split = True
         for name in ("threshold", "most", "spacing"):
             layout.prop(self, name)
+        if self.other_parents or not self.use_labels:
+            layout.prop(self, "most_of")
         self.draw_pose_settings(layout)
 
 

@@ -23,8 +23,10 @@ class GEOANALOGY_OT_scatter(PoseSettings, LongEdit, bpy.types.Operator):
             ("DENSITY", "Per Area", "So many per squared unit"),
         ],
     )
-    count: IntProperty(name="Count", min=0, soft_max=200, default=10)
-    density: FloatProperty(name="Density", min=0.0, default=0.1)
+    count: IntProperty(
+        name="Count", description="Objects in every polygon like the example's", min=0, soft_max=200, default=10
+    )
+    density: FloatProperty(name="Density", description="Objects per squared unit", min=0.0, default=0.1)
     width: FloatProperty(
         name="Irregularity",
         description="How far from the best places objects may fall, as a share of the polygon's size",

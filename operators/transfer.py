@@ -4,16 +4,20 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.tree.recording import transfer_steps
+from ..geoanalogy.blender.tree.recording import is_mark, transfer_steps
 from ..geoanalogy.poses.local_mapping import TransferOptions
 from .edit import LongEdit, needs_object_mode
 
 
 class GEOANALOGY_OT_transfer(LongEdit, bpy.types.Operator):
-    """Take the selected objects of one polygon to every polygon like it, following the shape of its boundary"""
+    """Take the selected objects of one polygon to every polygon like it"""
 
     bl_idname = "geoanalogy.transfer"
     bl_label = "Transfer Group"
+    bl_description = (
+        "Take the selected objects of one polygon to every polygon like it, following the shape of its boundary. "
+        "Plain empties selected with them, one per polygon, mark where lengths along the boundary start, or the corner"
+    )
 
     system: EnumProperty(
         name="Coordinates",
@@ -45,10 +49,21 @@ class GEOANALOGY_OT_transfer(LongEdit, bpy.types.Operator):
 
     def steps(self, context):
         """Learn, transfer and record."""
-        items = sorted(context.selected_objects, key=lambda item: item.name)
+        chosen = sorted(context.selected_objects, key=lambda item: item.name)
+        marks = [item for item in chosen if is_mark(item)]
+        items = [item for item in chosen if item not in marks]
         options = TransferOptions(system=self.system, distance=self.distance, corners=self.corners)
-        node = yield from transfer_steps(context, items, options, everything=self.everything)
+        node = yield from transfer_steps(context, items, options, marks, everything=self.everything)
         return f"{node[names.COUNT]} objects transferred"
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        for name in ("system", "distance"):
+            layout.prop(self, name)
+        if self.system == "boundary":
+            layout.prop(self, "corners")
+        layout.prop(self, "everything")
 
 
 def register():

@@ -4,16 +4,13 @@ import bpy
 
 from ..geoanalogy.blender import names
 from ..geoanalogy.blender.tree.explanation import explanation_of
-from ..geoanalogy.blender.tree.learned import novelty_of, rule_of, targets_of
+from ..geoanalogy.blender.tree.learned import novelty_of, placed_on, rule_of, unfamiliar_of
 from ..geoanalogy.blender.tree.node_settings import stored_settings
 from ..geoanalogy.blender.tree.store import operation_nodes, tree_of
 from .base import SidebarPanel, hint
 
-#: Relations and polygons that are listed.
+#: Relations and faces that are listed.
 MOST_LISTED = 4
-
-#: Novelty from which an example more would help.
-UNFAMILIAR = 0.4
 
 
 class GEOANALOGY_PT_results(SidebarPanel, bpy.types.Panel):
@@ -46,20 +43,43 @@ class GEOANALOGY_PT_results(SidebarPanel, bpy.types.Panel):
 
     def _draw_learned(self, context, layout, node):
         rule = rule_of(node)
-        if rule:
-            box = layout.box()
-            box.label(text="Learned", icon="INFO")
-            for relation in rule[:MOST_LISTED]:
-                box.progress(factor=relation.share, type="BAR", text=relation.text)
-        unfamiliar = [target for target in targets_of(node) if target.novelty >= UNFAMILIAR] if rule else []
-        if unfamiliar:
-            box = layout.box()
-            box.label(text="Unlike the examples; add one there", icon="QUESTION")
-            for target in unfamiliar[:MOST_LISTED]:
-                box.progress(factor=target.novelty, type="BAR", text=f"{target.name}  {target.novelty:.2f}")
+        if not rule:
+            return
+        box = layout.box()
+        box.label(text="Learned", icon="INFO")
+        for relation in rule[:MOST_LISTED]:
+            box.progress(factor=relation.share, type="BAR", text=relation.text)
+        layout.operator("geoanalogy.select_examples", icon="RESTRICT_SELECT_OFF")
+        self._draw_unfamiliar(context.scene.geoanalogy, layout.box(), node)
         novelty = novelty_of(context.active_object, node)
         if novelty is not None:
             hint(layout, f"Novelty of {context.active_object.name}: {novelty:.2f}")
+
+    def _draw_unfamiliar(self, settings, box, node):
+        faces = unfamiliar_of(node)
+        head = box.row()
+        if not faces:
+            head.operator("geoanalogy.list_unfamiliar", icon="QUESTION")
+            if names.UNFAMILIAR in node:
+                hint(box, "No face is unlike the examples", "CHECKMARK")
+            return
+        head.label(text="Unlike the examples; add one there", icon="QUESTION")
+        head.prop(settings, "show_unfamiliar", text="", icon="OVERLAY")
+        counts = placed_on(node)
+        # The one that was clicked stays in the middle of those that are listed.
+        first = max(0, min(settings.unfamiliar_index - MOST_LISTED // 2, len(faces) - MOST_LISTED))
+        for i, face in list(enumerate(faces))[first : first + MOST_LISTED]:
+            row = box.row(align=True)
+            clicked = i == settings.unfamiliar_index
+            row.operator("geoanalogy.show_face", text="", icon="VIEWZOOM", depress=clicked).index = i
+            placed = f"{counts[face.name]} placed" if face.name in counts else "nothing placed"
+            row.progress(factor=face.novelty, type="BAR", text=f"{face.name}  {face.novelty:.2f}, {placed}")
+        if len(faces) > MOST_LISTED:
+            row = box.row(align=True)
+            hint(row, f"{len(faces)} in all", "NONE")
+            at = settings.unfamiliar_index
+            row.operator("geoanalogy.show_face", text="", icon="TRIA_LEFT").index = (max(at, 0) - 1) % len(faces)
+            row.operator("geoanalogy.show_face", text="", icon="TRIA_RIGHT").index = (at + 1) % len(faces)
 
     def _draw_reasons(self, context, layout):
         item = context.active_object

@@ -11,7 +11,7 @@ Reading order: `names`; `reading`, from objects to scenes (`planes`, `shapes`, `
 
 from .registration import register_in_order, unregister_in_order
 
-MODULES = (".command", ".properties", ".tree.node_tree", ".tree.links", ".tree.showing", ".handlers")
+MODULES = (".command", ".properties", ".tree.node_tree", ".tree.links", ".tree.showing", ".overlay", ".handlers")
 
 
 def register():

@@ -49,8 +49,9 @@ TREE, OPERATION_NODE, LAYOUT_SOCKET = "GeoAnalogyTree", "GeoAnalogyOperation", "
 #: On nodes: the operation as nested properties, and what it has proposed.
 OPERATION, RESULTS, EXAMPLES, FRAME = "operation", "results", "examples", "frame"
 
-#: On nodes of placements: the learned rule in words, and the rejected results that it was learned from.
-RULE, REJECTED = "rule", "rejected"
+#: On nodes of placements: the learned rule in words, the rejected results that it was learned from, and the faces that
+#: were unlike the examples when it was learned.
+RULE, REJECTED, UNFAMILIAR = "rule", "rejected", "unfamiliar"
 
 #: On trees: the outputs that the next operation builds on, and the names of the objects that the tree is applied to
 #: (none: all).

@@ -42,3 +42,29 @@ def read_pairs(text: str, what: str) -> dict[str, float]:
             raise InputError(f"the {what} of '{label}' is given twice; keep one of them")
         found[label] = number
     return found
+
+
+def read_counts(text: str, what: str) -> dict[str, int]:
+    """The whole numbers by their labels.
+
+    Parameters
+    ----------
+    text : str
+        As in `read_pairs`.
+    what : str
+        What the line holds, for the message.
+
+    Returns
+    -------
+    dict of str to int
+
+    Raises
+    ------
+    InputError
+        As in `read_pairs`, and for a number that is not whole.
+    """
+    found = read_pairs(text, what)
+    for label, number in found.items():
+        if number != int(number):
+            raise InputError(f"the {what} of '{label}' is {number:g}; give a whole number")
+    return {label: int(number) for label, number in found.items()}

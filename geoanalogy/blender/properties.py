@@ -1,7 +1,7 @@
 """What GeoAnalogy keeps with each scene of a file."""
 
 import bpy
-from bpy.props import IntProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, IntProperty, PointerProperty, StringProperty
 
 from . import names
 
@@ -46,6 +46,10 @@ class GEOANALOGY_PG_scene(bpy.types.PropertyGroup):
     rectangle_label: StringProperty(
         name="Label", default="example", description="What the rectangles are that are drawn as examples"
     )
+    show_unfamiliar: BoolProperty(
+        name="Show", default=True, description="Outline the faces in the 3D view that are unlike the examples"
+    )
+    unfamiliar_index: IntProperty(name="Face", default=-1, description="Which of these faces was clicked")
 
 
 def register():

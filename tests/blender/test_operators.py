@@ -254,6 +254,13 @@ def test_children_of_the_example_come_along():
         ({"relations": {"corner ratio"}}, {"relations": ("corner ratio",)}),
         ({"level_set_width": 0.1}, {"level_set_width": 0.1}),
         ({"clearance": "door 0.9, coffee table: 0.3"}, {"clearance": {"door": 0.9, "coffee table": 0.3}}),
+        ({"other_parents": True}, {"other_parents": True}),
+        ({"local_importance": "constant"}, {"local_importance": "constant"}),
+        ({"matching_accuracy": "constant"}, {"matching_accuracy": "constant"}),
+        ({"direction_width": 0.5}, {"direction_width": 0.5}),
+        ({"cells": 20_000}, {"cells": 20_000}),
+        ({"direction_bins": 36}, {"direction_bins": 36}),
+        ({"candidates": 5}, {"candidates": 5}),
         ({"weights": "chair = 0, corner distance 2,"}, {"relation_weights": {"chair": 0.0, "corner distance": 2.0}}),
     ],
     ids=lambda value: next(iter(value)),
@@ -280,6 +287,58 @@ def test_most_and_spacing_limit_what_is_shown():
     gaps = np.linalg.norm(centres[:, None] - centres[None], axis=2)
     same_room = (centres[:, None, 0] // 5) == (centres[None, :, 0] // 5)
     assert gaps[same_room & (gaps > 0)].min(initial=9.0) >= 3.0
+
+
+def test_rooms_of_another_label_get_results_where_they_are_asked_for():
+    for i, label in enumerate(("office", "office", "study")):
+        face(f"room {i}", ROOM, label, at=(5.0 * i, 0.0, 0.0))
+        box(f"desk {i}", (1.6, 0.8, 0.7), "desk", at=(5.0 * i + 2.0, 2.0, 0))
+    activate(box("Chair", (0.4, 0.4, 0.9), "chair", at=(2.0, 1.3, 0), turn=math.pi / 2))
+    settings = {"threshold": 0.2, "mirror": "NO", "weights": "office 0"}
+    propagate(**settings)
+    assert [i.location.x for i in results()] == pytest.approx([7.0], abs=0.02)
+    propagate(other_parents=True, **settings)
+    assert {round(i.location.x) for i in results()} >= {7, 12}
+    propagate(other_parents=True, most_of="study 0", **settings)
+    assert [i.location.x for i in results()] == pytest.approx([7.0], abs=0.02)
+
+
+def test_shares_say_how_often_each_of_several_is_chosen():
+    rooms(6)
+    small = box("Cot", (1.0, 0.6, 0.5), "bed", at=(1.0, 2.5, 0.0))
+    activate(bed(), small)
+    assert bpy.ops.geoanalogy.choose(EXEC, True, shares="Bed 0") == {"FINISHED"}
+    assert {i.data for i in results()} == {small.data}
+    assert bpy.ops.geoanalogy.choose(EXEC, True, shares="Cot 0, Bed 2") == {"FINISHED"}
+    assert {i.data for i in results()} == {bpy.data.objects["Bed"].data}
+
+
+def empty(name, at):
+    item = link(bpy.data.objects.new(name, None))
+    item.location = at
+    return item
+
+
+@pytest.mark.parametrize("system", ["boundary", "corner"])
+def test_empties_mark_where_the_coordinates_of_a_group_start(system):
+    """Two equal squares; the second one's mark is a quarter turn further round, and so is the group there."""
+    square = [(0, 0), (4, 0), (4, 4), (0, 4)]
+    for i in range(2):
+        face(f"lawn {i}", square, "lawn", at=(6.0 * i, 0.0, 0.0))
+    flower = box("Flower", (0.2, 0.2, 0.2), "flower", at=(1.0, 0.5, 0.0))
+    marks = [empty("Start", (0.0, 0.0, 0.0))]
+    if system == "boundary":
+        marks.append(empty("There", (10.0, 0.0, 0.0)))
+    activate(flower, *marks)
+    settings = {"system": system, "distance": "absolute"}
+    assert bpy.ops.geoanalogy.transfer(EXEC, True, **settings) == {"FINISHED"}
+    (made,) = results()
+    wanted = (9.5, 1.0, 0.0) if system == "boundary" else (7.0, 0.5, 0.0)
+    assert tuple(made.location) == pytest.approx(wanted, abs=1e-3)
+    options = bridge("tree.store").engine_node(operations_tree().nodes.active).operation.group.options
+    assert (options.start, options.corner) == (((0.0, 0.0), None) if system == "boundary" else (None, 0))
+    assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
+    assert tuple(results()[0].location) == pytest.approx(wanted, abs=1e-3)
 
 
 def test_results_stay_clear_of_a_doors_swing():

@@ -18,7 +18,20 @@ from facades import (
     street,
     wall,
 )
-from flats import activate, box, bridge, everything, link, operations_tree, placed, reload, results
+from flats import (
+    activate,
+    bed,
+    box,
+    bridge,
+    everything,
+    link,
+    operations_tree,
+    placed,
+    propagate,
+    reload,
+    results,
+    rooms,
+)
 from mathutils import Matrix, Vector
 
 EXEC = "EXEC_DEFAULT"
@@ -103,6 +116,46 @@ def test_the_threshold_sifts_without_computing():
     node.threshold = 0.5
     assert placed() == every
     assert bridge("tree.evaluating").evaluations.evaluated == evaluated
+
+
+@pytest.mark.parametrize(
+    ("settings", "options"),
+    [
+        ({"tau": 0.5}, {"tau": 0.5}),
+        ({"mirrored": True}, {"mirrored": True}),
+        ({"forbid_intersections": True}, {"forbid_intersections": True}),
+        ({"overlap": 0.4}, {"allow_overlaps": 0.4}),
+        ({"neighbours": 2}, {"neighbours": 2}),
+        ({"aspect_tolerance": 0.5}, {"aspect_tolerance": 0.5, "area_tolerance": 1.5}),
+        ({"area_tolerance": 0.7}, {"area_tolerance": 0.7}),
+        ({"any_size": True}, {"aspect_tolerance": np.inf, "area_tolerance": np.inf}),
+    ],
+    ids=lambda value: next(iter(value)),
+)
+def test_the_redo_panel_sets_the_engines_options_of_placements(settings, options):
+    examples(street()[0])
+    place(**settings)
+    learned = operation().model.options
+    for name, value in options.items():
+        assert getattr(learned, name) == (pytest.approx(value) if isinstance(value, float) else value)
+
+
+def test_what_no_example_intersects_can_be_forbidden():
+    facades = street()
+    first, corners = facades[0]
+    examples(facades[0])
+    # A sign hangs where one sill would be.
+    x, y = corners[1]
+    outline("sign", ring(x - 0.3, y - 0.4, 1.6, 0.3), "sign", first)
+
+    def below_the_sign():
+        low, _ = expected(corners[1])
+        return [item for item in results() if np.allclose(points_on(first, item)[0], low, atol=0.1)]
+
+    place(threshold=0.05)
+    assert below_the_sign()
+    place(threshold=0.05, forbid_intersections=True)
+    assert results() and not below_the_sign()
 
 
 def test_a_rejected_result_becomes_a_counter_example_and_stays_away():
@@ -377,20 +430,104 @@ def test_why_here_lists_the_relations_of_a_result():
     assert any("window" in reason.text for reason in reasons)
 
 
-def test_novelty_names_the_wall_that_is_unlike_the_examples():
+def tower_and_shed(at=40.0):
+    """Two walls that are like no house: a window far up on one, none on the other."""
+    there = frame("south", at=(at, 0.0, 0.0))
+    outline("tower", ring(0, 0, 3.0, 30.0), "facade", there)
+    outline("tower window", ring(1.0, 20.0, 0.6, 3.0), "window", there)
+    shed = frame("east", at=(at + 20.0, 0.0, 0.0))
+    outline("shed", ring(0, 0, 4.0, 3.0), "facade", shed)
+    return there, shed
+
+
+def unfamiliar():
+    return bridge("tree.learned").unfamiliar_of(placement_node())
+
+
+def test_faces_that_are_unlike_the_examples_are_listed_also_where_nothing_is_placed():
     facades = street()
-    placed_ = frame("south", at=(40.0, 0.0, 0.0))
-    outline("tower", ring(0, 0, 3.0, 30.0), "facade", placed_)
-    outline("tower window", ring(1.0, 20.0, 0.6, 3.0), "window", placed_)
+    there, shed = tower_and_shed()
     examples(facades[0])
-    node = place(threshold=0.1)
-    targets = bridge("tree.learned").targets_of(node)
-    of = {target.name: target.novelty for target in targets}
-    assert of["house"] < 0.4
-    assert targets[0].name == "tower"
+    node = place(threshold=0.9)
+    faces = unfamiliar()
+    assert {face.name for face in faces} == {"tower", "shed"}
+    assert [face.novelty for face in faces] == sorted((face.novelty for face in faces), reverse=True)
+    assert all(0.4 <= face.novelty <= 1.0 for face in faces)
+    counts = bridge("tree.learned").placed_on(node)
+    assert "shed" not in counts and counts["house"] == 6
+    of = {face.name: face for face in faces}
+    corners = {"tower": (there, (3.0, 30.0)), "shed": (shed, (4.0, 3.0))}
+    for name, (placed_, (width, height)) in corners.items():
+        points = np.array([placed_.inverted() @ Vector(point) for point in of[name].ring])
+        assert np.ptp(points, axis=0) == pytest.approx((width, height, 0.0), abs=1e-5)
+        assert points.min(axis=0) == pytest.approx((0.0, 0.0, 0.0), abs=1e-5)
     for item in results()[:3]:
         assert 0 <= bridge("tree.learned").novelty_of(item, node) <= 1
     assert bridge("tree.learned").novelty_of(bpy.data.objects["house"], node) is None
+
+
+def test_an_example_on_an_unfamiliar_face_takes_it_from_the_list():
+    facades = street()
+    there, _ = tower_and_shed()
+    made = examples(facades[0])
+    place()
+    more = sill("Sill 9", there, (0.8, 20.0))
+    activate(more)
+    assert bpy.ops.geoanalogy.select_examples(EXEC, True) == {"FINISHED"}
+    assert {item.name for item in bpy.context.selected_objects} == {item.name for item in (*made, more)}
+    place()
+    assert {face.name for face in unfamiliar()} == {"shed"}
+    assert len(operation().model.lesson.taught) == 4
+
+
+def test_the_list_of_unfamiliar_faces_is_undone_saved_and_made_anew_after_a_replay(tmp_path):
+    facades = street()
+    tower_and_shed()
+    examples(facades[0])
+    bpy.ops.ed.undo_push(message="before")
+    place()
+    listed = unfamiliar()
+    bpy.ops.ed.undo()
+    assert operations_tree() is None or not operations_tree().nodes
+    bpy.ops.ed.redo()
+    assert unfamiliar() == listed
+    reload(tmp_path / "street.blend")
+    assert unfamiliar() == listed
+    assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
+    assert unfamiliar() == ()
+    bpy.data.objects.remove(bpy.data.objects["shed"])
+    assert bpy.ops.geoanalogy.list_unfamiliar(EXEC, True) == {"FINISHED"}
+    assert [(face.name, face.novelty) for face in unfamiliar()] == [
+        (face.name, pytest.approx(face.novelty)) for face in listed if face.name == "tower"
+    ]
+
+
+def test_a_face_of_the_list_is_clicked():
+    facades = street()
+    tower_and_shed()
+    examples(facades[0])
+    place()
+    names_ = [face.name for face in unfamiliar()]
+    assert bpy.ops.geoanalogy.show_face(EXEC, True, index=1) == {"FINISHED"}
+    assert bpy.context.scene.geoanalogy.unfamiliar_index == 1
+    assert bpy.ops.geoanalogy.show_face(EXEC, True, index=0, select=True) == {"FINISHED"}
+    assert [item.name for item in bpy.context.selected_objects] == [names_[0]]
+    before = everything()
+    with pytest.raises(RuntimeError, match="the list has no such face; list the faces again"):
+        bpy.ops.geoanalogy.show_face(EXEC, True, index=7)
+    assert everything() == before
+
+
+def test_unfamiliar_faces_are_listed_of_placements_alone():
+    rooms()
+    bed()
+    propagate()
+    before = everything()
+    with pytest.raises(RuntimeError, match="was not learned from several examples"):
+        bpy.ops.geoanalogy.list_unfamiliar(EXEC, True)
+    assert everything() == before
+    assert bpy.ops.geoanalogy.select_examples(EXEC, True) == {"FINISHED"}
+    assert [item.name for item in bpy.context.selected_objects] == ["Bed"]
 
 
 def bad_nothing():

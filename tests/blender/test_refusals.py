@@ -124,6 +124,22 @@ def far_from_each_other():
     activate(bed(), box("Other", (1, 1, 1), "bed", at=(6, 1, 0)))
 
 
+def mark(at):
+    item = link(bpy.data.objects.new("Mark", None))
+    item.location = at
+    return item
+
+
+def two_marks():
+    rooms()
+    activate(bed(), mark((0, 0, 0)), mark((4, 0, 0)))
+
+
+def mark_elsewhere():
+    rooms()
+    activate(bed(), mark((5, 0, 0)))
+
+
 def mixed_group():
     a_result()
     activate(results()[0], bpy.data.objects["Bed"])
@@ -168,6 +184,11 @@ CASES = [
     (far_from_each_other, TRANSFER, "select objects of one polygon"),
     (mixed_group, TRANSFER, "select either results or objects of your own"),
     (outside, TRANSFER, "object 'Bed' lies outside every polygon"),
+    (two_marks, TRANSFER, "several empties mark the start of 'room 0'"),
+    (mark_elsewhere, TRANSFER, "no empty marks the start of 'room 0'"),
+    (bed_in_rooms, lambda: PROPAGATE(most_of="hall 1.5"), "the number of 'hall' is 1.5; give a whole number"),
+    (bed_in_rooms, lambda: bpy.ops.geoanalogy.choose(EXEC, True, shares="Cot 1"), "no such object is selected"),
+    (bed_in_rooms, lambda: bpy.ops.geoanalogy.choose(EXEC, True, shares="Bed 0"), "the weights of a choice"),
     (nothing_at_all, lambda: bpy.ops.geoanalogy.choose(EXEC, True), "nothing is selected"),
     (nothing_at_all, lambda: bpy.ops.geoanalogy.set_label(EXEC, True, label="x"), "nothing is selected"),
     (nothing_at_all, lambda: bpy.ops.geoanalogy.set_footprint(EXEC, True), "nothing is selected"),

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import bpy
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from ...errors import InputError
@@ -20,6 +21,7 @@ from ...operations.pose_placement import PosePlacement
 from ...operations.scatter_placement import ScatterPlacement
 from ...poses.arrays import ArrayModel, ArrayOptions, learn_array
 from ...poses.group_transfer import GroupObject, GroupTransfer
+from ...poses.local_coordinates import BoundarySystem
 from ...poses.local_mapping import TransferOptions
 from ...poses.options import PoseOptions
 from ...poses.pose import Pose, footprint_ring
@@ -129,7 +131,13 @@ def learn_row(
         raise InputError(f"object {start.name!r}: {error}") from None
 
 
-def learn_group(items: Sequence[bpy.types.Object], site: Site, scene: Scene, options: TransferOptions) -> GroupTransfer:
+def learn_group(
+    items: Sequence[bpy.types.Object],
+    site: Site,
+    scene: Scene,
+    options: TransferOptions,
+    marks: Sequence[bpy.types.Object] = (),
+) -> GroupTransfer:
     """Learn a group from objects in one polygon.
 
     Parameters
@@ -138,6 +146,8 @@ def learn_group(items: Sequence[bpy.types.Object], site: Site, scene: Scene, opt
     site : Site
     scene : Scene
     options : TransferOptions
+    marks : sequence of bpy.types.Object
+        Where coordinates start, at most one per polygon.
 
     Returns
     -------
@@ -146,7 +156,7 @@ def learn_group(items: Sequence[bpy.types.Object], site: Site, scene: Scene, opt
     Raises
     ------
     InputError
-        Where they are not all in one polygon.
+        Where they are not all in one polygon, or two objects mark the same one.
     """
     objects, parents = [], []
     for item in items:
@@ -160,7 +170,32 @@ def learn_group(items: Sequence[bpy.types.Object], site: Site, scene: Scene, opt
                 f"object {item.name!r} lies in {parents[-1].id!r} and {items[0].name!r} in {parents[0].id!r}; "
                 "select objects of one polygon"
             )
-    return GroupTransfer(parents[0], objects, options)
+    return GroupTransfer(parents[0], objects, _marked(options, parents[0], site, scene, marks))
+
+
+def _marked(
+    options: TransferOptions, source: Polygon, site: Site, scene: Scene, marks: Sequence[bpy.types.Object]
+) -> TransferOptions:
+    """Options with the starts, or the corner, that objects mark on the boundaries of polygons like the group's."""
+    if not marks:
+        return options
+    alike = [p for p in scene.polygons if p.label == source.label]
+    places: dict[str, tuple[float, float]] = {}
+    for mark in marks:
+        x, y, _ = site.plane.to_plane([mark.matrix_world.translation])[0].tolist()
+        polygon = min(alike, key=lambda p: p.shape.exterior.distance(shapely.Point(x, y)))
+        if str(polygon.id) in places:
+            raise InputError(f"several empties mark the start of {polygon.id!r}; keep one of them")
+        places[str(polygon.id)] = (x, y)
+    if str(source.id) not in places:
+        raise InputError(f"no empty marks the start of {source.id!r}, which the group is in; put one at its boundary")
+    start = places.pop(str(source.id))
+    if options.system == "corner":
+        system = BoundarySystem(source)
+        corners = system.places(system.corner_arcs)
+        nearest = int(np.hypot(*(corners - start).T).argmin()) if len(corners) else None
+        return replace(options, corner=nearest)
+    return replace(options, start=start, starts=places)
 
 
 def relearned_steps(every: Sequence[Surroundings], node: bpy.types.Node) -> Stepper[Operation]:

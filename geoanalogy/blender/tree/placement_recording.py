@@ -34,6 +34,7 @@ from .evaluating import (
     surroundings_of,
     write_node,
 )
+from .learned import unfamiliar_steps, write_unfamiliar
 from .placement_lessons import (
     Rejected,
     Shown,
@@ -215,6 +216,33 @@ def forgotten_steps(context: bpy.types.Context, node: bpy.types.Node) -> Stepper
     return count
 
 
+def unfamiliar_again_steps(context: bpy.types.Context, node: bpy.types.Node) -> Stepper[int]:
+    """List anew which faces are unlike the examples of a placement: the scene may be another one by now.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    node : bpy.types.Node
+
+    Returns
+    -------
+    generator of (float, str)
+        Returns how many there are.
+
+    Raises
+    ------
+    InputError
+        Where the node places by a single example or not at all, or the ground cannot be read.
+    """
+    if not is_placement(node):
+        raise InputError(f"the operation {node.name!r} was not learned from several examples; click one that was")
+    every = read_surroundings(context)
+    layouts = yield from within(incoming_everywhere_steps(every, node.name), 0.0, 0.5)
+    faces = yield from within(unfamiliar_steps(engine_node(node).operation, sites_of(every, layouts)), 0.5, 1.0)
+    write_unfamiliar(node, faces)
+    return len(faces)
+
+
 def _again_steps(
     context: bpy.types.Context, node: bpy.types.Node, rejected: Sequence[Rejected], decisions: Decisions
 ) -> Stepper[bpy.types.Node]:
@@ -245,12 +273,13 @@ def _write_steps(
     whole = builds(tree_of(context.scene))
     evaluated, after = [], []
     if whole:
-        after = yield from within(whole_steps(every, [node]), 0.3, 1.0)
+        after = yield from within(whole_steps(every, [node]), 0.3, 0.9)
     else:
         for i, (around, layout) in enumerate(zip(every, layouts, strict=True)):
-            start, end = (0.3 + 0.7 * k / len(every) for k in (i, i + 1))
+            start, end = (0.3 + 0.6 * k / len(every) for k in (i, i + 1))
             (out,) = yield from within(evaluations.steps(node, layout, around.seed), start, end)
             evaluated.append((around, out.elements))
+    unfamiliar = yield from within(unfamiliar_steps(node.operation, sites_of(every, layouts)), 0.9, 1.0)
     tree = ensure_tree(context.scene)
     if known is None:
         known = add_node(tree, node, placed, home or Plane())
@@ -265,6 +294,7 @@ def _write_steps(
     else:
         write_node(known, evaluated)
         mark_stale(tree, known)
+    write_unfamiliar(known, unfamiliar)
     return known
 
 

@@ -225,6 +225,7 @@ def transfer_steps(
     context: bpy.types.Context,
     items: Sequence[bpy.types.Object],
     options: TransferOptions | None = None,
+    marks: Sequence[bpy.types.Object] = (),
     *,
     everything: bool = False,
     name: str | None = None,
@@ -237,6 +238,9 @@ def transfer_steps(
     items : sequence of bpy.types.Object
         All in one polygon; either examples or results of other operations.
     options : TransferOptions, optional
+    marks : sequence of bpy.types.Object
+        At most one per polygon, the group's own among them: where lengths along its boundary start, or the corner that
+        coordinates start from. Where there is none, that is found by the polygons' likeness.
     everything : bool
         Whether objects are placed too for whose coordinates a polygon has no room.
     name : str, optional
@@ -265,7 +269,7 @@ def transfer_steps(
     labels = [label_of(item, context.scene) for item in items]
 
     def make(site: Site, scene: Scene, before: Operation | None) -> Operation:
-        group = learn_group(items, site, scene, options or TransferOptions())
+        group = learn_group(items, site, scene, options or TransferOptions(), marks)
         meshes = tuple(one.mesh for one in _placed(items, tree_of(context.scene), site))
         return GroupPlacement(meshes=meshes, labels=tuple(labels), group=group, own=own, everything=everything)
 
@@ -312,6 +316,21 @@ def scatter_steps(
         return ScatterPlacement(mesh=item.name, label=label, model=model, seed=seed)
 
     return _record_steps(context, [item], ScatterPlacement, make, name or label)
+
+
+def is_mark(item: bpy.types.Object) -> bool:
+    """Whether an object marks a place and is not placed itself.
+
+    Parameters
+    ----------
+    item : bpy.types.Object
+
+    Returns
+    -------
+    bool
+        An empty without a label that instances nothing.
+    """
+    return item.type == "EMPTY" and item.instance_type == "NONE" and names.LABEL not in item
 
 
 def require_object(context: bpy.types.Context, item: bpy.types.Object | None) -> bpy.types.Object:

@@ -8,7 +8,7 @@ import bpy
 
 from ...errors import InputError
 from ...progress import Stepper, run, within
-from .. import register
+from .. import names, register
 from ..regions.recording import replayed_steps, write_replayed
 from ..writing.picture import draw_picture
 from .evaluating import read_surroundings
@@ -129,6 +129,7 @@ def _on_polygons_steps(
     if tree.seed != seed:
         tree.seed = seed
     for node in nodes:
+        node.pop(names.UNFAMILIAR, None)  # faces may have gone or come
         around = next(around for around in every if node in around.nodes)
         after = around.engine.node(node.name)
         if after.operation is not before[node.name]:

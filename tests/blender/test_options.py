@@ -1,0 +1,46 @@
+"""Whatever can be set in the engine can be set in Blender."""
+
+from dataclasses import fields
+
+import bpy
+import pytest
+from flats import engine
+
+POSES = {"propagate", "choose", "array", "scatter"}
+
+#: Options of the engine, the operators that set them, and what is called otherwise there or is set another way.
+OPTIONS = [
+    ("poses.options", "PoseOptions", POSES, {"labels": "use_labels", "relation_weights": "weights"}),
+    ("poses.arrays", "ArrayOptions", {"array"}, {}),
+    ("poses.scatter", "ScatterOptions", {"scatter"}, {}),
+    ("poses.local_mapping", "TransferOptions", {"transfer"}, {}),
+    ("placements.options", "PlacementOptions", {"place"}, {"allow_overlaps": "overlap"}),
+    ("regions.options", "RegionOptions", {"find_regions"}, {}),
+]
+
+#: What is not a property of the operator, and where it is set instead.
+ELSEWHERE = {
+    ("PoseOptions", "threshold"): "the threshold of results; lower ones are kept for the slider",
+    ("PoseOptions", "alternative_geometry"): "the custom property ga_validation of objects",
+    ("PoseOptions", "max_per"): "the operators' own most and most_of",
+    ("PoseOptions", "spacing"): "the operators' own spacing, which sifts what has been computed",
+    ("PoseOptions", "upright"): "the direction of the plane that the example lies on",
+    ("TransferOptions", "shape"): "results are instances, which are not bent",
+    ("TransferOptions", "corner"): "an empty at the corner",
+    ("TransferOptions", "start"): "an empty at the group's polygon",
+    ("TransferOptions", "starts"): "empties at the others",
+    ("RegionOptions", "query_kind"): "how the query was drawn",
+}
+
+
+@pytest.mark.parametrize(("module", "kind", "operators", "aliases"), OPTIONS, ids=[kind for _, kind, *_ in OPTIONS])
+def test_every_option_of_the_engine_can_be_set(module, kind, operators, aliases):
+    options = {field.name for field in fields(getattr(engine(module), kind))}
+    for operator in operators:
+        properties = getattr(bpy.ops.geoanalogy, operator).get_rna_type().properties
+        missing = {
+            name for name in options if aliases.get(name, name) not in properties and (kind, name) not in ELSEWHERE
+        }
+        assert not missing
+        mute = [p.identifier for p in properties if not p.description and p.type not in ("ENUM", "POINTER")]
+        assert mute == []
