@@ -43,10 +43,11 @@ APART = 2000.0
 
 
 def parcels(count: int) -> ga.Scene:
-    """So many lots of the generated maps; every copy is turned and sized differently."""
-    lots = [p for name in MAPS for p in ga.read_scene(HERE / f"{name}.geojson").polygons if p.label in TYPES]
-    made: list[ga.Polygon] = []
+    """So many lots of the generated maps, in an order that makes few like many; every copy is sized differently."""
     rng = np.random.default_rng(1)
+    lots = [p for name in MAPS for p in ga.read_scene(HERE / f"{name}.geojson").polygons if p.label in TYPES]
+    lots = [lots[i] for i in rng.permutation(len(lots))]
+    made: list[ga.Polygon] = []
     for k in range(count):
         p = lots[k % len(lots)]
         # The second time round no parcel has the size that it had.

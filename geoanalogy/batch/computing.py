@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 from ..errors import Cancelled, InputError
-from ..geometry.memory import Memory
 from ..geometry.scene import Scene
 from ..operations.evaluation import Evaluations
 from ..operations.layout import Layout
@@ -119,14 +118,17 @@ def compute(job: str, scene: str, progress: Progress | None = None) -> Product:
 
 
 class _Worker:
-    """A tree, and what has been evaluated for it."""
+    """A tree, and what has been evaluated for it on surfaces.
+
+    Of all else nothing is kept from one tile to the next, so that the thousandth costs what the first did, in time and
+    in memory: no other tile has the same ground, and solids made of named parts.
+    """
 
     def __init__(self, job: str) -> None:
         plain = json.loads(job)
         self.seed: int = plain["seed"]
         tree = OperationsTree(OperationsTree.from_dict(plain["tree"]).nodes, TimedEvaluations())
         self.tree = simplified(tree, plain["detail"])
-        self.memory = Memory()
 
     def build(self, ground: Scene, units: Sequence[Unit], progress: Progress | None) -> Product:
         """Build some units, together."""
@@ -134,10 +136,12 @@ class _Worker:
         assert isinstance(done, TimedEvaluations)
         done.seconds = {}
         known, evaluated = done.surfaces_reused, done.surfaces_evaluated
-        ids = {id for unit in units for id in unit.members}
-        scene = Scene([p for p in ground.polygons if p.id in ids], ground.offset, self.memory)
+        scene = Scene(ground.subset(id for unit in units for id in unit.members), ground.offset)
         begin = time.process_time()
-        applied = run(self.tree.steps(scene, self.seed), progress)
+        try:
+            applied = run(self.tree.steps(scene, self.seed), progress)
+        finally:
+            done.leave_ground()
         parcel_of = {id: unit.parcel for unit in units for id in unit.members[::-1]}
         facts = {
             "parcels": [unit.parcel for unit in units],

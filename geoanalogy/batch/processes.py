@@ -56,11 +56,16 @@ def build_here(job: str, work: Sequence[Work], store: Store, count: int) -> Iter
     ------
     (key, reason) or None
         Each tile when it is done, "" for the reason, or what it failed by; None where nothing happened for a while.
+
+    Raises
+    ------
+    OSError
+        Where a file cannot be written, by whichever process; other tiles would fail alike.
     """
     job_file = store.folder / f"job-{os.getpid()}.json"
     job_file.write_text(job, encoding="utf-8")
     waiting: queue.SimpleQueue[tuple[Work, int] | None] = queue.SimpleQueue()
-    answers: queue.SimpleQueue[tuple[str, str]] = queue.SimpleQueue()
+    answers: queue.SimpleQueue[tuple[str, str | OSError]] = queue.SimpleQueue()
     for one in work:
         waiting.put((one, TRIES))
     crew = [_Crew(job_file, store, waiting, answers) for _ in range(min(count, len(work)))]
@@ -74,6 +79,8 @@ def build_here(job: str, work: Sequence[Work], store: Store, count: int) -> Iter
             except queue.Empty:
                 yield None
                 continue
+            if isinstance(reason, OSError):
+                raise reason
             left -= 1
             yield key, reason
     finally:
@@ -95,7 +102,7 @@ class _Crew(threading.Thread):
         job: Path,
         store: Store,
         waiting: "queue.SimpleQueue[tuple[Work, int] | None]",
-        answers: "queue.SimpleQueue[tuple[str, str]]",
+        answers: "queue.SimpleQueue[tuple[str, str | OSError]]",
     ) -> None:
         super().__init__(daemon=True)
         self._job, self._store = job, store
@@ -109,12 +116,13 @@ class _Crew(threading.Thread):
             if item is None:
                 return
             work, tries = item
+            reason: str | OSError | None
             scene = self._store.folder / f"{work.key}.json"
             try:
                 scene.write_text(work.scene, encoding="utf-8")
                 reason = self._ask([str(self._job), str(scene), str(self._store.path(work.key))])
             except OSError as error:
-                reason = str(error)
+                reason = error
             finally:
                 scene.unlink(missing_ok=True)
             if self._stopped.is_set():
@@ -132,7 +140,10 @@ class _Crew(threading.Thread):
             _let_go(self._process)
 
     def _ask(self, files: list[str]) -> str | None:
-        """Have a tile built: what it failed by, "" where it did not; None where the process has ended."""
+        """Have a tile built: what it failed by, "" where it did not; None where the process has ended.
+
+        Raises OSError where the process could not write the product.
+        """
         if self._process is not None and self._process.poll() is not None:
             _let_go(self._process)
             self._process = None
@@ -149,8 +160,10 @@ class _Crew(threading.Thread):
         if not answer:
             process.wait()
             return None
-        said = json.loads(answer)
-        return "" if said == "done" else str(said)
+        reason, unwritten = json.loads(answer)
+        if unwritten is not None:
+            raise OSError(*unwritten)
+        return str(reason)
 
 
 def _let_go(process: "subprocess.Popen[str]") -> None:

@@ -189,8 +189,7 @@ def scene_text(scene: Scene, units: Sequence[Unit]) -> str:
     str
         Numbers are written in full, so that nothing depends on who builds.
     """
-    ids = {id for unit in units for id in unit.members}
-    polygons = [p.to_dict() for p in scene.polygons if p.id in ids]
+    polygons = [p.to_dict() for p in scene.subset(id for unit in units for id in unit.members)]
     known = [[u.parcel, *u.members] for u in units]
     return json.dumps({"polygons": polygons, "offset": list(scene.offset), "units": known}, sort_keys=True)
 

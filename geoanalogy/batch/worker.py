@@ -1,7 +1,9 @@
 """A process that builds tiles: it reads lines with the names of files, and answers each when the tile is done.
 
 It is started with the engine's folder on its path, whatever package the engine is in where it was started from, and
-needs no Blender. A line is a JSON list: the file of the job, that of the tile's scene, that of the product.
+needs no Blender. A line is a JSON list: the file of the job, that of the tile's scene, that of the product. So is an
+answer: what the tile failed by, "" where it did not; and where it could not be written, the error's number, text and
+file, else null.
 """
 
 import json
@@ -24,12 +26,14 @@ def main() -> None:
         job, scene, product = json.loads(line)
         if job not in jobs:
             jobs = {job: Path(job).read_text(encoding="utf-8")}
-        answer = "done"
+        answer: tuple[str, list[int | str | None] | None] = ("", None)
         try:
-            built = compute(jobs[job], Path(scene).read_text(encoding="utf-8"))
-            write_whole(Path(product), built.to_bytes())
+            built = compute(jobs[job], Path(scene).read_text(encoding="utf-8")).to_bytes()
+            write_whole(Path(product), built)
+        except OSError as error:
+            answer = ("", [error.errno, error.strerror, product])
         except Exception as error:
-            answer = f"{type(error).__name__}: {error}"
+            answer = (f"{type(error).__name__}: {error}", None)
         answers.write(json.dumps(answer) + "\n")
         answers.flush()
 

@@ -100,6 +100,20 @@ class Scene:
             raise InputError(f"the scene has no polygon {id!r}; it has {len(self.polygons)} polygons, check the id")
         return self.polygons[self._index[id]]
 
+    def subset(self, ids: Iterable[str]) -> list[Polygon]:
+        """The polygons of some ids, in the scene's order.
+
+        Parameters
+        ----------
+        ids : iterable of str
+            Of polygons that the scene has.
+
+        Returns
+        -------
+        list of Polygon
+        """
+        return [self.polygons[i] for i in sorted({self._index[id] for id in ids})]
+
     def parent(self, id: str) -> Polygon | None:
         """The parent of a polygon, None at the top.
 

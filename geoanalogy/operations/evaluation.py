@@ -19,8 +19,8 @@ from .placing import UNNAMED, Placing, standing_on
 #: Proposals that are kept: several states of a tree of a hundred nodes, each some kilobytes.
 MOST_KEPT = 1024
 
-#: The same on surfaces: the facades of a quarter of a city.
-MOST_KEPT_ON_SURFACES = 1 << 16
+#: The same on surfaces: the facades of a quarter of a city, each some 20 kilobytes.
+MOST_KEPT_ON_SURFACES = 1 << 13
 
 
 class Evaluations:
@@ -48,6 +48,11 @@ class Evaluations:
         """Share of the evaluations on surfaces that were found; 0 before any."""
         every = self.surfaces_evaluated + self.surfaces_reused
         return self.surfaces_reused / every if every else 0.0
+
+    def leave_ground(self) -> None:
+        """Forget what was proposed on the ground, which no other scene has; what equal surfaces share stays."""
+        self._kept.clear()
+        self._layouts.clear()
 
     def steps(self, node: Node, layout: Layout, seed: int) -> Stepper[tuple[Layout, ...]]:
         """Evaluate a node, as a stepper.

@@ -40,6 +40,11 @@ def test_polygon_by_id():
         Scene([ROOM, BED]).polygon("b2")
 
 
+def test_a_subset_is_in_the_order_of_the_scene():
+    scene = Scene([ROOM, BED, Polygon(UNIT_SQUARE, id="lamp")])
+    assert [p.id for p in scene.subset(["lamp", str(ROOM.id), "lamp"])] == [ROOM.id, "lamp"]
+
+
 @pytest.mark.parametrize(
     ("point", "expected"),
     [((1, 0.5), BED), ((3, 2), ROOM), ((0, 0), BED), ((4, 3), ROOM), ((2, 1), BED), ((4.1, 3), None)],

@@ -1,6 +1,7 @@
 """Jobs in tiles: the same result whoever builds what, stopping and going on, failures, levels of detail."""
 
 import errno
+import gc
 import json
 import os
 import signal
@@ -19,6 +20,7 @@ from geoanalogy.batch.release import digest, version
 from geoanalogy.batch.store import Store
 from geoanalogy.batch.tiles import divide, read_scene_text, scene_text, units_of, wanted_labels
 from geoanalogy.geometry.extrusion import FaceLabels
+from geoanalogy.geometry.solid import Solid
 from geoanalogy.operations.boolean import Boolean
 from geoanalogy.operations.extrusion import Extrusion
 from geoanalogy.operations.node import Link, Node
@@ -117,6 +119,21 @@ def test_a_full_disk_leaves_what_was_there(tmp_path, monkeypatch):
     assert [(path.name, path.read_bytes()) for path in tmp_path.iterdir()] == [("a.npz", b"earlier")]
     with pytest.raises(OSError, match="No space left on device"):
         built(plots(), tmp_path, Choices())
+
+
+def test_nothing_of_a_tile_is_kept_when_it_is_done(tmp_path):
+    computing._worker.cache_clear()
+    counted = {}
+
+    def count(share, _):
+        if share not in counted:
+            gc.collect()
+            counted[share] = sum(isinstance(thing, Solid) for thing in gc.get_objects())
+        return True
+
+    built(plots(6), tmp_path, Choices(per_tile=1), count)
+    after = list(counted.values())[1:]
+    assert len(after) == 6 and len(set(after)) == 1
 
 
 def test_single_tiles_are_built_apart(tmp_path):
