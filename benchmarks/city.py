@@ -38,21 +38,23 @@ PER_TILE = 6
 #: Numbers of buildings, and those that take long.
 COUNTS, MANY = (10, 30), (100, 1000, 10_000)
 
-#: Distance between two copies of the maps, metres.
+#: Distance between two maps, and between two copies of one, metres.
 APART = 2000.0
 
 
 def parcels(count: int) -> ga.Scene:
     """So many lots of the generated maps, in an order that makes few like many; every copy is sized differently."""
     rng = np.random.default_rng(1)
-    lots = [p for name in MAPS for p in ga.read_scene(HERE / f"{name}.geojson").polygons if p.label in TYPES]
+    maps = [ga.read_scene(HERE / f"{name}.geojson").polygons for name in MAPS]
+    lots = [(p, APART * i) for i, every in enumerate(maps) for p in every if p.label in TYPES]
     lots = [lots[i] for i in rng.permutation(len(lots))]
     made: list[ga.Polygon] = []
     for k in range(count):
-        p = lots[k % len(lots)]
+        p, y = lots[k % len(lots)]
         # The second time round no parcel has the size that it had.
-        size = 1.0 if k < len(lots) else rng.uniform(0.97, 1.03)
-        ring = p.points * size + (APART * (k // len(lots)), APART * (k % len(MAPS)))
+        size = 1.0 if k < len(lots) else rng.uniform(0.94, 1.0)
+        centre = p.points.mean(axis=0)
+        ring = (p.points - centre) * size + centre + (APART * (k // len(lots)), y)
         made.append(ga.Polygon(ring, p.label, f"p{k}", (), None, p.orientation, p.segment_labels))
     return ga.Scene(made)
 

@@ -15,6 +15,7 @@ from ..tolerances import (
     ON_SAME_EDGE,
     SMALLEST_MAP,
     SMALLEST_PARCEL,
+    SURFACE_GRID,
     THINNEST_PARCEL,
     TOUCHING_SHARE,
 )
@@ -159,6 +160,7 @@ def without_overlaps(scene: Scene, labels: frozenset[str] | None, problems: list
     one, other = shapely.STRtree(shapes).query(shapes, predicate="intersects")
     pairs = [(a, b) for a, b in sorted(zip(one.tolist(), other.tolist(), strict=True)) if a < b]
     made = dict(enumerate(shapes))
+    changed: dict[int, Polygon] = {}
     gone: set[int] = set()
     for a, b in pairs:
         if a in gone or b in gone:
@@ -168,20 +170,22 @@ def without_overlaps(scene: Scene, labels: frozenset[str] | None, problems: list
         # What lies in another one altogether is its child, and what hardly overlaps touches.
         if common <= TOUCHING_SHARE * smaller or common >= LEAST_SIMPLE_SHARE * smaller:
             continue
-        first, second = (str(scene.polygons[those[k]].id) for k in (a, b))
-        left = max(shapely.get_parts(made[b].difference(made[a])), key=lambda part: part.area)
-        said = f"polygon {second!r} overlaps {first!r} by {common / made[b].area:.0%} of its area"
+        first, second = (scene.polygons[those[k]] for k in (a, b))
+        # On a grid: edges that lie on one line but for rounding would leave spikes, which cross themselves.
+        left = max(
+            shapely.get_parts(shapely.difference(made[b], made[a], grid_size=SURFACE_GRID)), key=lambda part: part.area
+        )
+        said = f"polygon {second.id!r} overlaps {first.id!r} by {common / made[b].area:.0%} of its area"
         if left.area < 0.5 * shapes[b].area:
             gone.add(b)
             problems.append(f"{said} and is left out; correct one of their outlines")
         else:
-            made[b] = left
+            made[b], changed[those[b]] = left, _with_shape(second, left)
             problems.append(f"{said} and has been cut back")
-    changed = {those[k]: shape for k, shape in made.items() if shape is not shapes[k]}
     dropped = {those[k] for k in gone}
     if not changed and not dropped:
         return scene
-    kept = (_with_shape(p, changed[i]) if i in changed else p for i, p in enumerate(scene.polygons) if i not in dropped)
+    kept = (changed.get(i, p) for i, p in enumerate(scene.polygons) if i not in dropped)
     return Scene(kept, scene.offset, scene.memory)
 
 

@@ -153,3 +153,14 @@ def test_parcels_that_overlap_are_cut_back_or_left_out():
         "polygon 'gone' overlaps 'one' by 58% of its area and is left out; correct one of their outlines",
     ]
     assert without_overlaps(made, frozenset({"plot"}), []) is made
+
+
+@pytest.mark.parametrize("angle", [3.0239239199893424, 3.4814525162841092, 5.819595751463642, 3.27494836830566])
+def test_edges_on_one_line_leave_no_spikes(angle):
+    turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    one = Polygon(np.array([(0, 0), (20, 0), (20, 30), (0, 30)]) @ turn + (0, 2000), "plot", "one")
+    two = Polygon(np.array([(17.4, 0), (40, 0), (40, 30), (17.4, 30)]) @ turn + (0, 2000), "plot", "two")
+    problems = []
+    made = without_overlaps(Scene([one, two]), None, problems)
+    assert made.polygon("two").area == pytest.approx(20 * 30) and len(made.polygon("two").points) == 4
+    assert problems == ["polygon 'two' overlaps 'one' by 12% of its area and has been cut back"]
