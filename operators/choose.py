@@ -24,7 +24,12 @@ class GEOANALOGY_OT_choose(PoseSettings, LongEdit, bpy.types.Operator):
     threshold: FloatProperty(
         name="Threshold", description="Least importance of a result", min=0.0, max=1.0, default=THRESHOLD
     )
-    most: IntProperty(name="At Most per Polygon", description="The example counted; 0 is any number", min=0, default=1)
+    most: IntProperty(
+        name="At Most",
+        description="Most objects in every polygon like the example's, the example counted; 0 is any number",
+        min=0,
+        default=1,
+    )
     shares: StringProperty(
         name="Shares",
         description="How often objects are chosen in proportion to the others, 1 unless it is said, as in: oak 3, "

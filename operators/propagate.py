@@ -19,7 +19,7 @@ class GEOANALOGY_OT_propagate(PoseSettings, LongEdit, bpy.types.Operator):
         name="Threshold", description="Least importance of a result", min=0.0, max=1.0, default=THRESHOLD
     )
     most: IntProperty(
-        name="At Most per Polygon",
+        name="At Most",
         description="Most objects in every polygon like the example's, the example counted; 0 is any number",
         min=0,
         default=1,

@@ -14,7 +14,7 @@ class GEOANALOGY_OT_select_elements(LongEdit, bpy.types.Operator):
     """Divide everything of a label among sets at random; operations on one set leave the others alone"""
 
     bl_idname = "geoanalogy.select_elements"
-    bl_label = "Select"
+    bl_label = "Divide"
 
     label: StringProperty(
         name="Label", description="Of what is divided; empty: that of the active object", options={"SKIP_SAVE"}

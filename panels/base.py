@@ -1,5 +1,7 @@
 """What all panels of the sidebar share."""
 
+import textwrap
+
 import bpy
 
 
@@ -11,8 +13,38 @@ class SidebarPanel:
     bl_category = "GeoAnalogy"
 
 
+#: Width of the sidebar that is not text (icon and margins), and of a letter on average, in pixels at a scale of 1.
+MARGIN, LETTER = 64.0, 5.9
+
+#: Letters in a line at least, however narrow the sidebar is.
+NARROW = 16
+
+
+def lines_of(text: str) -> list[str]:
+    """A sentence in lines that the region is wide enough for."""
+    context = bpy.context
+    width = context.region.width / context.preferences.system.ui_scale if context.region else 0.0
+    return textwrap.wrap(text, max(NARROW, int((width - MARGIN) / LETTER)))
+
+
+def paragraph(layout: bpy.types.UILayout, text: str, icon: str = "NONE") -> None:
+    """Draw a sentence, in as many lines as it takes."""
+    column = layout.column(align=True)
+    column.scale_y = 0.85
+    for i, line in enumerate(lines_of(text)):
+        column.label(text=line, icon="BLANK1" if i and icon != "NONE" else icon)
+
+
 def hint(layout: bpy.types.UILayout, text: str, icon: str = "INFO") -> None:
     """Draw a sentence in small type."""
-    row = layout.row()
-    row.active = False
-    row.label(text=text, icon=icon)
+    column = layout.column()
+    column.active = False
+    paragraph(column, text, icon)
+
+
+def share(layout: bpy.types.UILayout, text: str, part: float) -> None:
+    """Draw a bar with what it measures; where that is too long for the bar, above it."""
+    lines = lines_of(text)
+    if len(lines) > 1:
+        paragraph(layout, text)
+    layout.progress(factor=part, type="BAR", text=f"{part:.2f}" if len(lines) > 1 else text)

@@ -13,6 +13,7 @@ class GEOANALOGY_PT_building(SidebarPanel, bpy.types.Panel):
     bl_idname = "GEOANALOGY_PT_building"
     bl_label = "Build"
     bl_parent_id = "GEOANALOGY_PT_propagation"
+    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context):
         layout = self.layout
@@ -34,7 +35,8 @@ class GEOANALOGY_PT_building(SidebarPanel, bpy.types.Panel):
                 "geoanalogy.build_on", text=f"Set {output}" if count > 1 else "Active", icon="FORWARD"
             )
             choice.what, choice.output = "ACTIVE", output
-        row.operator("geoanalogy.build_on", text="Merge Branches", icon="AUTOMERGE_ON").what = "MERGE"
+        row = layout.row(align=True)
+        row.operator("geoanalogy.build_on", text="All Branches", icon="AUTOMERGE_ON").what = "MERGE"
         row.operator("geoanalogy.build_on", text="", icon="LOOP_BACK").what = "LEAF"
 
 

@@ -5,7 +5,7 @@ import bpy
 from ..geoanalogy.blender import names
 from ..geoanalogy.blender.regions.results import uncertain_results
 from ..geoanalogy.blender.tree.store import tree_of, works_on_drawings
-from .base import SidebarPanel, hint
+from .base import SidebarPanel, hint, paragraph
 
 #: Results that are listed.
 MOST_LISTED = 3
@@ -57,7 +57,7 @@ class GEOANALOGY_PT_drawings(SidebarPanel, bpy.types.Panel):
         row.operator("geoanalogy.forget_decisions", text="", icon="LOOP_BACK")
         problem = node.get(names.PROBLEM)
         if problem:
-            hint(layout, problem, "ERROR")
+            paragraph(layout, problem, "ERROR")
         self._draw_result(context, layout, node)
         column = layout.column(align=True)
         column.label(text="Carry Over")

@@ -6,7 +6,7 @@ from ..geoanalogy.blender import names
 from ..geoanalogy.blender.tree.evaluating import parcels_of
 from ..geoanalogy.blender.tree.node_tree import ICONS
 from ..geoanalogy.blender.tree.store import builds, drawing_nodes, ordered_nodes, tree_of
-from .base import SidebarPanel, hint
+from .base import SidebarPanel, hint, paragraph
 
 
 class GEOANALOGY_UL_operations(bpy.types.UIList):
@@ -65,7 +65,7 @@ class GEOANALOGY_PT_operations(SidebarPanel, bpy.types.Panel):
         side.operator("geoanalogy.mute_operation", text="", icon="HIDE_OFF")
         side.operator("geoanalogy.remove_operation", text="", icon="REMOVE")
         if names.PROBLEM in tree:
-            hint(layout, str(tree[names.PROBLEM]), "ERROR")
+            paragraph(layout, str(tree[names.PROBLEM]), "ERROR")
         layout.prop(tree, "seed")
         row = layout.row(align=True)
         row.scale_y = 1.2

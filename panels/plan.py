@@ -2,7 +2,8 @@
 
 import bpy
 
-from .base import SidebarPanel
+from ..geoanalogy.blender import names
+from .base import SidebarPanel, hint
 
 
 class GEOANALOGY_PT_plan(SidebarPanel, bpy.types.Panel):
@@ -19,8 +20,11 @@ class GEOANALOGY_PT_plan(SidebarPanel, bpy.types.Panel):
         column.operator("geoanalogy.import_plan", icon="IMPORT")
         column.operator("geoanalogy.make_polygons", icon="MESH_DATA")
         row = layout.row(align=True)
-        row.operator("geoanalogy.set_label", text="Label Selected", icon="BOOKMARKS").target = "OBJECTS"
-        row.operator("geoanalogy.set_label", text="Collection", icon="OUTLINER_COLLECTION").target = "COLLECTION"
+        row.label(text="Label")
+        row.operator("geoanalogy.set_label", text="Selected").target = "OBJECTS"
+        row.operator("geoanalogy.set_label", text="Collection").target = "COLLECTION"
+        if context.scene.geoanalogy.plan is None and not any(names.LABEL in item for item in context.scene.objects):
+            hint(layout, "Import a plan, or draw faces and closed curves, and label what they are: room, door, facade")
 
 
 def register():

@@ -6,8 +6,8 @@ from ..geoanalogy.blender import names
 from ..geoanalogy.blender.tree.explanation import explanation_of
 from ..geoanalogy.blender.tree.learned import novelty_of, placed_on, rule_of, unfamiliar_of
 from ..geoanalogy.blender.tree.node_settings import stored_settings
-from ..geoanalogy.blender.tree.store import operation_nodes, tree_of
-from .base import SidebarPanel, hint
+from ..geoanalogy.blender.tree.store import drawing_nodes, is_building, operation_nodes, tree_of
+from .base import SidebarPanel, hint, paragraph, share
 
 #: Relations and faces that are listed.
 MOST_LISTED = 4
@@ -24,20 +24,25 @@ class GEOANALOGY_PT_results(SidebarPanel, bpy.types.Panel):
         layout = self.layout
         tree = tree_of(context.scene)
         node = tree.nodes.active if tree is not None else None
+        if node is not None and node in drawing_nodes(tree):
+            hint(layout, f"{node.name} was found in a drawing; its results are under Drawings")
+            return
         if node is None or node not in operation_nodes(tree):
             hint(layout, "Nothing propagated yet")
             return
-        layout.label(text=f"{node.name}: {int(node.get(names.COUNT, 0))} placed", icon="OUTLINER_OB_GROUP_INSTANCE")
+        done = "changed" if is_building(node) else "placed"
+        layout.label(text=f"{node.name}: {int(node.get(names.COUNT, 0))} {done}", icon="OUTLINER_OB_GROUP_INSTANCE")
         if "threshold" in stored_settings(node):
             layout.prop(node, "threshold", slider=True)
             layout.operator("geoanalogy.reject_below", icon="TRASH")
-        row = layout.row(align=True)
-        row.operator("geoanalogy.accept", icon="CHECKMARK")
-        row.operator("geoanalogy.reject", icon="X")
-        row.operator("geoanalogy.forget_decisions", text="", icon="LOOP_BACK")
+        if not is_building(node):
+            row = layout.row(align=True)
+            row.operator("geoanalogy.accept", icon="CHECKMARK")
+            row.operator("geoanalogy.reject", icon="X")
+            row.operator("geoanalogy.forget_decisions", text="", icon="LOOP_BACK")
         problem = node.get(names.PROBLEM)
         if problem:
-            hint(layout, problem, "ERROR")
+            paragraph(layout, problem, "ERROR")
         self._draw_learned(context, layout, node)
         self._draw_reasons(context, layout)
 
@@ -48,7 +53,7 @@ class GEOANALOGY_PT_results(SidebarPanel, bpy.types.Panel):
         box = layout.box()
         box.label(text="Learned", icon="INFO")
         for relation in rule[:MOST_LISTED]:
-            box.progress(factor=relation.share, type="BAR", text=relation.text)
+            share(box, relation.text, relation.share)
         layout.operator("geoanalogy.select_examples", icon="RESTRICT_SELECT_OFF")
         self._draw_unfamiliar(context.scene.geoanalogy, layout.box(), node)
         novelty = novelty_of(context.active_object, node)
@@ -63,7 +68,7 @@ class GEOANALOGY_PT_results(SidebarPanel, bpy.types.Panel):
             if names.UNFAMILIAR in node:
                 hint(box, "No face is unlike the examples", "CHECKMARK")
             return
-        head.label(text="Unlike the examples; add one there", icon="QUESTION")
+        head.label(text="Unlike the examples", icon="QUESTION")
         head.prop(settings, "show_unfamiliar", text="", icon="OVERLAY")
         counts = placed_on(node)
         # The one that was clicked stays in the middle of those that are listed.
@@ -72,14 +77,14 @@ class GEOANALOGY_PT_results(SidebarPanel, bpy.types.Panel):
             row = box.row(align=True)
             clicked = i == settings.unfamiliar_index
             row.operator("geoanalogy.show_face", text="", icon="VIEWZOOM", depress=clicked).index = i
-            placed = f"{counts[face.name]} placed" if face.name in counts else "nothing placed"
-            row.progress(factor=face.novelty, type="BAR", text=f"{face.name}  {face.novelty:.2f}, {placed}")
+            row.progress(factor=face.novelty, type="BAR", text=f"{face.name}: {counts.get(face.name, 'none')} placed")
         if len(faces) > MOST_LISTED:
             row = box.row(align=True)
-            hint(row, f"{len(faces)} in all", "NONE")
+            row.label(text=f"{len(faces)} in all")
             at = settings.unfamiliar_index
             row.operator("geoanalogy.show_face", text="", icon="TRIA_LEFT").index = (max(at, 0) - 1) % len(faces)
             row.operator("geoanalogy.show_face", text="", icon="TRIA_RIGHT").index = (at + 1) % len(faces)
+        hint(box, "One more example there teaches most", "NONE")
 
     def _draw_reasons(self, context, layout):
         item = context.active_object
@@ -88,7 +93,7 @@ class GEOANALOGY_PT_results(SidebarPanel, bpy.types.Panel):
         box = layout.box()
         box.operator("geoanalogy.explain", icon="QUESTION")
         for reason in explanation_of(context.scene, item) or ():
-            box.progress(factor=reason.share, type="BAR", text=f"{reason.text}  {reason.share:.2f}")
+            share(box, reason.text, reason.share)
 
 
 def register():
