@@ -31,6 +31,7 @@ MODULES = (
     ".find_regions",
     ".lay_image",
     ".carry_over",
+    ".show_transformations",
     ".accept",
     ".reject",
     ".reject_below",

@@ -4,6 +4,8 @@ import bpy
 
 from ..geoanalogy.blender import names
 from ..geoanalogy.blender.regions.results import uncertain_results
+from ..geoanalogy.blender.regions.settings import SETTINGS
+from ..geoanalogy.blender.regions.space_view import space_collection
 from ..geoanalogy.blender.tree.store import tree_of, works_on_drawings
 from .base import SidebarPanel, hint, paragraph
 
@@ -25,6 +27,7 @@ class GEOANALOGY_PT_drawings(SidebarPanel, bpy.types.Panel):
         row = layout.row(align=True)
         row.prop(settings, "drawing", text="Drawing")
         row.operator("geoanalogy.import_drawing", text="", icon="IMPORT")
+        layout.prop(settings, "smoothing")
         column = layout.column(align=True)
         column.label(text="Query")
         row = column.row(align=True)
@@ -64,6 +67,11 @@ class GEOANALOGY_PT_drawings(SidebarPanel, bpy.types.Panel):
         column.template_ID(context.scene.geoanalogy, "image", open="image.open")
         column.operator("geoanalogy.lay_image", icon="IMAGE_DATA")
         column.operator("geoanalogy.carry_over", icon="DUPLICATE")
+        layout.operator("geoanalogy.show_transformations", icon="GRAPH")
+        view = space_collection(context.scene, node.name)
+        if view is not None:
+            plain, weighted = view[names.INLIERS]
+            hint(layout, f"{view[names.COUNT]} correspondences, {plain:.1%} of a match ({weighted:.1%} by confidence)")
 
     def _draw_result(self, context, layout, node):
         guesses = uncertain_results(node)
@@ -75,16 +83,37 @@ class GEOANALOGY_PT_drawings(SidebarPanel, bpy.types.Panel):
             return
         box = layout.box()
         box.label(text=item.name, icon="VIEWZOOM")
-        for text, key in (("Similarity", names.SIMILARITY), ("Confidence", names.CONFIDENCE)):
+        shown = (("Similarity", names.SIMILARITY), ("Coverage", names.COVERAGE), ("Confidence", names.CONFIDENCE))
+        for text, key in shown:
             value = float(item.get(key, 0.0))
             box.progress(factor=value, type="BAR", text=f"{text}  {value:.2f}")
 
 
+class GEOANALOGY_PT_matching(SidebarPanel, bpy.types.Panel):
+    """How the query is matched."""
+
+    bl_idname = "GEOANALOGY_PT_matching"
+    bl_label = "Matching"
+    bl_parent_id = "GEOANALOGY_PT_drawings"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        for name in SETTINGS:
+            layout.prop(context.scene.geoanalogy.matching, name)
+
+
+CLASSES = (GEOANALOGY_PT_drawings, GEOANALOGY_PT_matching)
+
+
 def register():
-    """Register the panel."""
-    bpy.utils.register_class(GEOANALOGY_PT_drawings)
+    """Register the panels."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
 
 
 def unregister():
-    """Unregister it."""
-    bpy.utils.unregister_class(GEOANALOGY_PT_drawings)
+    """Unregister them."""
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -11,7 +11,16 @@ Reading order: `names`; `reading`, from objects to scenes (`planes`, `shapes`, `
 
 from .registration import register_in_order, unregister_in_order
 
-MODULES = (".command", ".properties", ".tree.node_tree", ".tree.links", ".tree.showing", ".overlay", ".handlers")
+MODULES = (
+    ".command",
+    ".regions.settings",
+    ".properties",
+    ".tree.node_tree",
+    ".tree.links",
+    ".tree.showing",
+    ".overlay",
+    ".handlers",
+)
 
 
 def register():

@@ -4,7 +4,7 @@ import bpy
 from bpy.app.handlers import persistent
 
 from .reading.ground import memory
-from .regions.recording import forget_found
+from .regions.finding import forget_found
 from .tree.evaluating import evaluations
 from .tree.explanation import forget_explanations
 

@@ -67,12 +67,16 @@ COUNT, SECONDS, STALE, PROBLEM = "count", "seconds", "stale", "problem"
 #: On queries: "region" or "stroke". On what is carried over to similar regions: True, as it is no line of the drawing.
 QUERY, CONTENT = "ga_query", "ga_content"
 
-#: On results of a region transfer: how similar the region is, and how well the mapping is supported on average; the
-#: latter also as an attribute of the points of meshes.
-SIMILARITY, CONFIDENCE = "ga_similarity", "ga_confidence"
+#: On results of a region transfer: how similar the region is, which share of the query's lines has a counterpart, and
+#: how well the mapping is supported on average; the latter also as an attribute of the points of meshes and strokes.
+SIMILARITY, COVERAGE, CONFIDENCE = "ga_similarity", "ga_coverage", "ga_confidence"
 
 #: On nodes of region transfers: the object that the query was drawn as, what is carried over, and all that was found.
 QUERY_OBJECT, CONTENTS, MATCHES = "query_object", "contents", "matches"
+
+#: On collections that show transformation spaces: which operation's, and the shares of correspondences, and of their
+#: confidence, that are of a match.
+SPACE, INLIERS = "ga_space", "inliers"
 
 #: On nodes of region transfers: the names of those results, with commas between them, that little supports.
 UNCERTAIN = "uncertain"

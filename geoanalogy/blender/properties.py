@@ -1,9 +1,10 @@
 """What GeoAnalogy keeps with each scene of a file."""
 
 import bpy
-from bpy.props import BoolProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from . import names
+from .regions.settings import GEOANALOGY_PG_matching
 
 
 def _is_operations_tree(self, tree):
@@ -34,6 +35,14 @@ class GEOANALOGY_PG_scene(bpy.types.PropertyGroup):
         type=bpy.types.Collection,
         description="The strokes, curves and meshes of this collection are the drawing; none: all strokes and curves",
     )
+    smoothing: FloatProperty(
+        name="Smooth",
+        description="For noisy lines: how far along them they are smoothed before they are matched; they stay as drawn",
+        min=0.0,
+        soft_max=1.0,
+        subtype="DISTANCE",
+    )
+    matching: PointerProperty(name="Matching", type=GEOANALOGY_PG_matching)
     query: PointerProperty(
         name="Query",
         type=bpy.types.Object,

@@ -70,12 +70,15 @@ class Found:
         The engine's matches behind the targets.
     here : bool
         Whether the query was found in the drawing itself; where not, its own lines were compared with it.
+    drawing : Drawing
+        What was matched: with the query's own lines, where those were compared with it.
     """
 
     targets: list[Target]
     threshold: float
     matches: Matches
     here: bool
+    drawing: Drawing
 
 
 def _read_line(value: Any) -> tuple[tuple[float, float], ...]:
@@ -189,13 +192,15 @@ class RegionTransfer(Operation):
         """What comes in."""
         return (layout,)
 
-    def find_steps(self, lines: Sequence[ArrayLike]) -> Stepper[Found]:
+    def find_steps(self, lines: Sequence[ArrayLike], smoothing: float = 0.0) -> Stepper[Found]:
         """Find the targets in a drawing, as a stepper.
 
         Parameters
         ----------
         lines : sequence of (n, 2) arrays
             The drawing; a closed line repeats its first point.
+        smoothing : float
+            Of noisy lines, as `Drawing` takes it.
 
         Returns
         -------
@@ -211,17 +216,17 @@ class RegionTransfer(Operation):
         drawn = [np.asarray(line, float) for line in lines]
         if self.is_in(drawn):
             shift = np.zeros(2)
-            drawing = Drawing(drawn)
+            drawing = Drawing(drawn, smoothing=smoothing)
         else:
             own = [np.array(line) for line in self.lines]
             shift = _beside(own, drawn)
-            drawing = Drawing([*(line + shift for line in own), *drawn])
+            drawing = Drawing([*(line + shift for line in own), *drawn], smoothing=smoothing)
         matches = yield from matching(drawing, np.array(self.query) + shift, self.options)
         targets = [
             Target(m.similarity, m.mirrored, m.coverage, _after(m.map, shift), _after(m.confidence, shift))
             for m in matches.every
         ]
-        return Found(targets, matches.threshold, matches, not shift.any())
+        return Found(targets, matches.threshold, matches, not shift.any(), drawing)
 
     def is_in(self, lines: Sequence[ArrayLike]) -> bool:
         """Whether a drawing holds the lines of the query where they were drawn, and no others there.

@@ -176,6 +176,8 @@ def test_strokes_and_curves_stay_editable_and_grow_with_their_region(make):
         if make is stroke_drawing:
             drawing = item.data.layers[0].frames[0].drawing
             assert len(drawing.strokes) == 2
+            trust = np.array([v.value for v in drawing.attributes["ga_confidence"].data])
+            assert len(trust) == 20 and trust.min() > 0.3 and trust.max() <= 1.0
             thickness = np.array([v.value for v in drawing.attributes["radius"].data]) / 0.02
         else:
             assert [len(s.points) for s in item.data.splines] == [10, 10]

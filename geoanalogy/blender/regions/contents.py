@@ -115,6 +115,7 @@ def carried(
     if item.type == "MESH" and made.data.shape_keys is not None:
         made.shape_key_clear()
     thickness = scale * np.cbrt(abs(np.linalg.det(world_matrix(item)[:3, :3])))
+    trusted = []
     for one in _arrays(made):
         part = slice(start, start + len(one.points))
         back = np.linalg.inv(one.matrix)
@@ -123,8 +124,20 @@ def carried(
             radii = np.empty(len(one.radii), np.float32)
             one.radii.foreach_get(one.radius, radii)
             one.radii.foreach_set(one.radius, (radii * thickness[part]).astype(np.float32))
+        if one.attributes is not None:
+            trusted.append((one.attributes, confidence[part]))
         start = part.stop
-    _finish(made, confidence, mirrored)
+    # A new attribute may move the others in memory: all coordinates are written by now.
+    for attributes, values in trusted:
+        known = attributes.get(names.CONFIDENCE)
+        attribute = known or attributes.new(names.CONFIDENCE, "FLOAT", "POINT")
+        attribute.data.foreach_set("value", values.astype(np.float32))
+    if item.type == "MESH":
+        if mirrored:
+            made.data.flip_normals()
+        made.data.update()
+    else:
+        made.data.update_tag()
     return made
 
 
@@ -145,6 +158,8 @@ class _Array:
         Where the thickness of the line is, one to a point.
     radius : str
         Its key.
+    attributes : bpy_prop_collection or None
+        Where further values of the points are kept.
     """
 
     points: bpy.types.bpy_prop_collection
@@ -153,13 +168,14 @@ class _Array:
     matrix: Array = field(default_factory=lambda: np.eye(4))
     radii: bpy.types.bpy_prop_collection | None = None
     radius: str = ""
+    attributes: bpy.types.bpy_prop_collection | None = None
 
 
 def _arrays(item: bpy.types.Object) -> list[_Array]:
     """The coordinates of an object's data."""
     data = item.data
     if item.type == "MESH":
-        return [_Array(data.vertices, "co")] if len(data.vertices) else []
+        return [_Array(data.vertices, "co", attributes=data.attributes)] if len(data.vertices) else []
     found = []
     if item.type == "CURVE":
         for spline in data.splines:
@@ -180,7 +196,8 @@ def _arrays(item: bpy.types.Object) -> list[_Array]:
             attribute = attributes.get(key)
             if attribute is not None and len(attribute.data):
                 own = radii.data if radii is not None and key == "position" else None
-                found.append(_Array(attribute.data, "vector", 3, placed, own, "value"))
+                kept = attributes if key == "position" else None
+                found.append(_Array(attribute.data, "vector", 3, placed, own, "value", kept))
     return found
 
 
@@ -196,19 +213,6 @@ def _set(one: _Array, points: Array) -> None:
     one.points.foreach_get(one.key, values)
     values.reshape(-1, one.width)[:, :3] = points
     one.points.foreach_set(one.key, values)
-
-
-def _finish(made: bpy.types.Object, confidence: Array, mirrored: bool) -> None:
-    data = made.data
-    if made.type == "MESH":
-        if mirrored:
-            data.flip_normals()
-        known = data.attributes.get(names.CONFIDENCE)
-        attribute = known or data.attributes.new(names.CONFIDENCE, "FLOAT", "POINT")
-        attribute.data.foreach_set("value", confidence.astype(np.float32))
-        data.update()
-    else:
-        data.update_tag()
 
 
 def _place_rigid(made: bpy.types.Object, item: bpy.types.Object, points: Array, plane: Plane) -> None:

@@ -30,11 +30,14 @@ class DrawnLines:
         Plane coordinates; a closed line repeats its first point.
     size : float
         Diagonal of the box around the drawing, scene units.
+    smoothing : float
+        How much its lines are smoothed before they are matched, scene units along them.
     """
 
     plane: Plane
     lines: list[Array]
     size: float
+    smoothing: float = 0.0
 
 
 def drawing_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
@@ -92,7 +95,8 @@ def read_drawn_lines(context: bpy.types.Context) -> DrawnLines:
                 f"object {item.name!r} lies off the plane of the drawing; move it there, or out of the drawing"
             )
         flat.append(local[:, :2])
-    return DrawnLines(plane, flat, size)
+    # A length of Blender's interface has single precision: 0.1 is meant, not 0.1000000015.
+    return DrawnLines(plane, flat, size, float(f"{context.scene.geoanalogy.smoothing:.6g}"))
 
 
 def lines_of(item: bpy.types.Object) -> list[Array]:

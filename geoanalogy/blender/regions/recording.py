@@ -4,8 +4,7 @@ Each function that takes a while is a stepper; `geoanalogy.progress.run` drives 
 scene stays as it was.
 """
 
-from collections import OrderedDict
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 
@@ -27,8 +26,8 @@ from ..tree.writing_nodes import add_node, write_operation
 from ..writing.instances import clear_results
 from .contents import points_of
 from .drawings import DrawnLines, read_drawn_lines
+from .finding import find_steps, read_operation
 from .patches import add_patch
-from .queries import read_query
 from .results import StoredTarget, clear_targets, contents_of, key_of, show_targets, write_targets
 
 Array = NDArray[np.float64]
@@ -39,14 +38,8 @@ BELOW_LINES, ABOVE_EACH_OTHER = 0.02, 0.001
 #: Step by which the local size of a mapping is measured, in sizes of the query.
 NEAR = 1e-3
 
-#: Matches that are kept for carrying over more with them.
-MOST_KEPT = 8
-
 #: Digits that a threshold found by the engine is rounded to, downwards.
 DIGITS = 3
-
-#: What has been found in this session, by all that it depends on.
-_found: OrderedDict[Hashable, Found] = OrderedDict()
 
 
 @dataclass(frozen=True)
@@ -110,11 +103,11 @@ def region_steps(
     drawn = read_drawn_lines(context)
     known = _node_of(context.scene, query)
     contents = list(contents) or ([] if known is None else contents_of(known))
-    operation = _read_operation(drawn, query, options or RegionOptions())
+    operation = read_operation(drawn, query, options or RegionOptions())
     if known is not None:
         # What the user has accepted and rejected of it stays.
         operation = replace(operation, decisions=engine_node(known).operation.decisions)
-    found = yield from _find_steps(operation, drawn)
+    found = yield from find_steps(operation, drawn)
     least = found.threshold if threshold is None else threshold
     operation = replace(operation, threshold=_rounded_down(least))
     made = _evaluated(operation, found, contents, drawn.plane, drawn, started)
@@ -288,7 +281,7 @@ def evaluated_steps(
     query = node.get(names.QUERY_OBJECT)
     if relearn and query is not None and context.scene.objects.get(query.name) == query:
         try:
-            fresh = _read_operation(drawn, query, operation.options)
+            fresh = read_operation(drawn, query, operation.options)
         except InputError:
             # Another drawing: the lines that were recorded are looked for in it.
             pass
@@ -298,7 +291,7 @@ def evaluated_steps(
     if threshold is not None:
         operation = replace(operation, threshold=threshold)
     try:
-        found = yield from _find_steps(operation, drawn)
+        found = yield from find_steps(operation, drawn)
         own = contents_of(node) if contents is None else contents
         return _evaluated(operation, found, own, source, drawn, started)
     except InputError as error:
@@ -388,33 +381,9 @@ def require_transfer(node: bpy.types.Node) -> None:
         raise InputError(f"the operation {node.name!r} works on no drawing; click one that does in the list of step 5")
 
 
-def forget_found() -> None:
-    """Drop what has been found in this session."""
-    _found.clear()
-
-
 def _node_of(scene: bpy.types.Scene, query: bpy.types.Object | None) -> bpy.types.Node | None:
     """The region transfer that a query was recorded with."""
     return next((n for n in drawing_nodes(tree_of(scene)) if n.get(names.QUERY_OBJECT) == query), None)
-
-
-def _read_operation(drawn: DrawnLines, query: bpy.types.Object | None, options: RegionOptions) -> RegionTransfer:
-    read = read_query(query, drawn.plane)
-    try:
-        return RegionTransfer.of(drawn.lines, read.points, replace(options, query_kind=read.kind))
-    except InputError as error:
-        raise InputError(f"object {query.name!r}: {error}") from None
-
-
-def _find_steps(operation: RegionTransfer, drawn: DrawnLines) -> Stepper[Found]:
-    """What the engine finds; the same drawing, query and options are computed once."""
-    lines = b"".join(line.tobytes() for line in drawn.lines)
-    name = (lines, len(drawn.lines), operation.query, operation.lines, operation.options)
-    if name not in _found:
-        _found[name] = yield from operation.find_steps(drawn.lines)
-        if len(_found) > MOST_KEPT:
-            _found.popitem(last=False)
-    return _found[name]
 
 
 def _evaluated(
@@ -427,10 +396,29 @@ def _evaluated(
 ) -> Transfer:
     """The targets with the places of all that is carried over."""
     parts = [source.to_plane(points_of(item))[:, :2] for item in contents]
-    points = np.vstack([*parts, np.zeros((0, 2))])
-    step = NEAR * float(np.ptp(np.array(operation.query), axis=0).max())
-    targets = [_stored_target(target, np.array(operation.query), points, step) for target in found.targets]
+    targets = stored_targets(operation, found, np.vstack([*parts, np.zeros((0, 2))]))
     return Transfer(operation, targets, source, drawn, perf_counter() - started)
+
+
+def stored_targets(operation: RegionTransfer, found: Found, points: Array | None = None) -> list[StoredTarget]:
+    """What was found, with all that is needed to show it.
+
+    Parameters
+    ----------
+    operation : RegionTransfer
+    found : Found
+    points : ndarray of shape (n, 2), optional
+        Of what is carried over, on the plane of the query.
+
+    Returns
+    -------
+    list of StoredTarget
+        In the order of the matches.
+    """
+    points = np.zeros((0, 2)) if points is None else points
+    query = np.array(operation.query)
+    step = NEAR * float(np.ptp(query, axis=0).max())
+    return [_stored_target(target, query, points, step) for target in found.targets]
 
 
 def _stored_target(target: Target, query: Array, points: Array, step: float) -> StoredTarget:

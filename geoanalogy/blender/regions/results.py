@@ -282,6 +282,7 @@ def show_targets(scene: bpy.types.Scene, node: bpy.types.Node) -> int:
             for item in _made(node, target, rank[target.key], contents, plane, size):
                 item[names.NODE], item[names.KEY] = node.name, target.key
                 item[names.SIMILARITY], item[names.CONFIDENCE] = target.similarity, target.confidence
+                item[names.COVERAGE] = target.coverage
                 holder.objects.link(item)
     node[names.COUNT] = len(shown)
     node[names.UNCERTAIN] = ", ".join(_name(node, rank[target.key]) for target in shown if target.uncertain)

@@ -5,6 +5,7 @@ import bpy
 from ...errors import InputError
 from .. import names
 from ..regions.results import show_targets
+from ..regions.space_view import refresh_space
 from . import node_tree
 from .refresh import show
 from .store import builds, tree_of, works_on_drawings
@@ -29,6 +30,7 @@ def show_again(context: bpy.types.Context, node: bpy.types.Node, *, unmoved: boo
     """
     if works_on_drawings(node):
         show_targets(context.scene, node)
+        refresh_space(context, node)
     elif builds(node.id_data):
         show_whole(context)
     else:
