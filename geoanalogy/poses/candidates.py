@@ -87,9 +87,10 @@ def find_candidates(
     if importance.query.rigid:
         return _of_footprint(importance, fields, blocked, taken)
     free = np.flatnonzero(~blocked & ~taken)
-    if importance.query.options.accumulation == "pose space":
-        return _in_pose_space(importance, fields, free)
-    return _in_plane(importance, fields, free)
+    in_space = importance.query.options.accumulation == "pose space"
+    found = (_in_pose_space if in_space else _in_plane)(importance, fields, free)
+    upright = importance.query.is_upright(found.angle, importance.mirrored)
+    return Candidates(found.position[upright], found.angle[upright])
 
 
 # ------------------------------------------------------------------------------------------------ footprint
@@ -237,8 +238,11 @@ def directions(importance: Importance) -> list[float]:
             weight.append(strength[mine] * length / e.segment_length[e.edge_segment[edge]])
     if not suggested:
         base = importance.target.parent.main_orientation - importance.query.arrangement.parent.main_orientation
-        return [float(base + importance.query.pose.angle + k * np.pi / 2) for k in range(4)]
+        quarters = base + importance.query.pose.angle + np.arange(4) * np.pi / 2
+        return [float(q) for q in quarters[importance.query.is_upright(quarters, importance.mirrored)]]
     angle, strength = np.concatenate(suggested), np.concatenate(weight)
+    upright = importance.query.is_upright(angle, importance.mirrored)
+    angle, strength = angle[upright], strength[upright]
     apart = 0.9 * importance.query.options.direction_width
     result: list[float] = []
     left = strength.copy()

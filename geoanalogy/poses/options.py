@@ -35,6 +35,9 @@ class PoseOptions:
     mirror : bool or None
         Whether mirrored poses are wanted (section 4.6). None: where the footprint is its own mirror image, so that a
         mirrored pose needs no mirrored object.
+    upright : bool
+        Whether the side of the object that is up at the example stays up: y points upwards on a wall, where what is
+        turned upside down stands in the same relations, but hangs wrong.
     symmetries : bool
         Whether combinations of a feature's symmetry axes count too (section 4.6): reflections about its own line and
         half turns.
@@ -77,6 +80,7 @@ class PoseOptions:
     level_set_width: float = 0.03
     direction_width: float = 0.26
     mirror: bool | None = None
+    upright: bool = False
     symmetries: bool = False
     scale: Literal["fixed", "room"] = "room"
     labels: bool = True

@@ -225,6 +225,7 @@ class PoseModel:
             poses = refined.of(refined.which == k)
             poses = poses.of(poses.value * factor[k] >= self.options.threshold)
             poses = poses.of(~self._is_example(target, poses.position, turned))
+            poses = poses.of(self.query.is_upright(poses.angle, turned))
             poses = poses.of(self._validation.accepts(target, poses.position, poses.angle, turned, importance.scale))
             rows = zip(poses.value * factor[k], poses.position, poses.angle, strict=True)
             found.setdefault(target, []).extend((float(v), p, float(a), importance) for v, p, a in rows)

@@ -20,6 +20,9 @@ Array = NDArray[np.float64]
 #: furnished rooms, 0.4 placed most fixtures right.
 FOOTPRINT_REACH = 0.4
 
+#: Cosine of how far what is upright may lean: 45 degrees.
+UPRIGHT = 0.7071
+
 #: Weight with which the centre of a footprint attends to everything in the room, however far: where what is near leaves
 #: several places (the corners of a rectangular room), the door across it decides.
 CONTEXT = 0.05
@@ -121,6 +124,26 @@ class Query:
             self._context = True
             self.questions = {t: q for t in ElementType if (q := self._question(t, seen)) is not None}
             self.total = float(sum(q.weight.sum() for q in self.questions.values()))
+
+    def is_upright(self, angle: Array, mirrored: bool) -> NDArray[np.bool_]:
+        """Whether the side that is up at the example is up, where the option `upright` asks for it.
+
+        Parameters
+        ----------
+        angle : ndarray of shape (m,)
+            Directions of poses, radians.
+        mirrored : bool
+            Whether they are mirrored.
+
+        Returns
+        -------
+        ndarray of shape (m,), bool
+        """
+        if not self.options.upright:
+            return np.ones(len(angle), dtype=bool)
+        # A mirrored object is flipped across its direction before it is turned.
+        up = -np.cos(angle + self.pose.angle) if mirrored != self.pose.mirrored else np.cos(angle - self.pose.angle)
+        return np.asarray(up > UPRIGHT)
 
     def _question(self, element: ElementType, seen: Observation) -> Question | None:
         relations = tuple(r for r in map(RELATIONS.__getitem__, self.options.relations) if r.element is element)

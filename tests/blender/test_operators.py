@@ -5,6 +5,7 @@ import math
 import bpy
 import numpy as np
 import pytest
+from facades import frame, outline, ring, sill
 from flats import (
     ROOM,
     activate,
@@ -18,9 +19,11 @@ from flats import (
     operations_tree,
     placed,
     propagate,
+    reload,
     results,
     rooms,
 )
+from mathutils import Vector
 
 EXEC = "EXEC_DEFAULT"
 
@@ -301,6 +304,25 @@ def test_rooms_of_another_label_get_results_where_they_are_asked_for():
     assert {round(i.location.x) for i in results()} >= {7, 12}
     propagate(other_parents=True, most_of="study 0", **settings)
     assert [i.location.x for i in results()] == pytest.approx([7.0], abs=0.02)
+
+
+def test_what_is_propagated_on_walls_hangs_upright_and_that_is_kept(tmp_path):
+    """By its surroundings alone, a lamp in a corner could hang upside down in the opposite one."""
+    for i, direction in enumerate(("south", "south", "south")):
+        outline(f"wall {i}", ring(0, 0, 6.0, 3.0), "wall", frame(direction, at=(8.0 * i, 0.0, 0.0)))
+    activate(sill("Lamp", frame("south"), (0.5, 2.5), label="lamp"))
+    propagate(most=0, threshold=0.6)
+    assert len(results()) >= 5
+
+    def upright():
+        bpy.context.view_layer.update()
+        return [(i.matrix_world.to_3x3() @ Vector((0, 0, 1))).z for i in results()]
+
+    assert min(upright()) == pytest.approx(1.0, abs=1e-3)
+    every = placed()
+    assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
+    reload(tmp_path / "walls.blend")
+    assert placed() == every and min(upright()) > 0.999
 
 
 def test_shares_say_how_often_each_of_several_is_chosen():

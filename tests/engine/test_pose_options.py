@@ -13,6 +13,7 @@ from strategies import Similarity
 import geoanalogy as ga
 from geoanalogy import Polygon, Pose, PoseOptions, Scene, learn_pose, propagate_pose
 from geoanalogy.poses.propagate import SCALED_FACTOR, PoseModel
+from geoanalogy.poses.scatter import ScatterModel, ScatterOptions
 
 NEXT_DOOR = Similarity(0.6, 1.0, (9.0, 1.0))
 ACCUMULATIONS = ("footprint", "plane", "pose space")
@@ -367,6 +368,7 @@ OTHER_THAN_DEFAULT = dict(
     level_set_width=0.04,
     direction_width=0.3,
     mirror=True,
+    upright=True,
     symmetries=True,
     scale="fixed",
     labels=False,
@@ -488,3 +490,40 @@ def test_a_polygon_of_a_model_from_a_newer_version_is_named():
 def test_rings_of_alternative_geometry_may_be_rough():
     crossing = {"room 0 door": ring((3.7, 0), (4.6, 0.9), (4.6, 0), (3.7, 0.9)).tolist()}
     assert propagate(scene_of(BEDROOM), alternative_geometry=crossing) is not None
+
+
+@pytest.mark.parametrize("accumulation", ACCUMULATIONS)
+@pytest.mark.parametrize("mirror", [False, True])
+def test_what_hangs_on_a_wall_stays_upright_where_that_is_asked_for(accumulation, mirror):
+    """Of a wall's four corners, two would have the lamp upside down; a tall wall would have it on its side."""
+    sizes = {"a": (0.0, 6.0, 3.0), "b": (10.0, 6.0, 3.0), "tall": (20.0, 3.0, 6.0)}
+    rings = {id: [(x, 0), (x + w, 0), (x + w, h), (x, h)] for id, (x, w, h) in sizes.items()}
+    scene = ga.Scene([ga.Polygon(ring, label="wall", id=id) for id, ring in rings.items()])
+    lamp = [(-0.3, -0.2), (0.3, -0.2), (0.3, 0.1), (-0.3, 0.2)]
+    options = {"scale": "fixed", "threshold": 0.9, "accumulation": accumulation, "mirror": mirror}
+
+    def places(**more):
+        found = ga.propagate_pose(scene, ga.Pose((1.0, 2.5), 0.0), lamp, ga.PoseOptions(**options, **more))
+        return {(p.parent.id, *np.round(p.pose.position, 2)) for p in found if p.mirrored == mirror}, found
+
+    free, _ = places()
+    assert ("tall", 22.5, 1.0) in free if mirror else ("b", 15.0, 0.5) in free
+    upright, found = places(upright=True)
+    assert upright == ({("a", 5.0, 2.5), ("b", 15.0, 2.5)} if mirror else {("b", 11.0, 2.5)})
+    for p in found:
+        ups = p.pose.to_scene([(0.0, 1.0), (0.0, 0.0)])
+        assert ups[0, 1] - ups[1, 1] == pytest.approx(1.0, abs=1e-3)
+
+
+def test_scattered_things_hang_upright_too():
+    ring = [(0, 0), (6, 0), (6, 3), (0, 3)]
+    scene = ga.Scene([ga.Polygon(np.add(ring, (x, 0)), label="wall", id=f"w{x}") for x in (0, 10)])
+    pose, lamp = ga.Pose((1.0, 2.5), 0.0), [(-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1)]
+
+    def ups(upright):
+        model = learn_pose(scene, pose, lamp, ga.PoseOptions(scale="fixed", upright=upright))
+        found = ScatterModel(model, ScatterOptions(count=15)).place(scene, seed=1)
+        return [np.diff(p.pose.to_scene([(0.0, 0.0), (0.0, 1.0)]), axis=0)[0, 1] for p in found]
+
+    assert min(ups(False)) < 0.0
+    assert len(ups(True)) == 30 and min(ups(True)) > 0.7

@@ -19,6 +19,9 @@ Array = NDArray[np.float64]
 #: more than single precision and a hasty hand leave.
 PARALLEL = 0.009
 
+#: Upward part of a unit normal from which a face counts as level rather than as a wall: 45 degrees.
+STEEP = 0.7071
+
 #: Distance from its plane, in sizes of a shape, below which the shape is flat.
 FLAT = 0.005
 
@@ -92,6 +95,11 @@ class Plane:
     def normal(self) -> Array:
         """Unit normal in the world, shape (3,)."""
         return self.frame.normal
+
+    @property
+    def is_wall(self) -> bool:
+        """Whether it is steep, so that its y axis points up and things on it hang."""
+        return bool(abs(self.normal[2]) <= STEEP)
 
     def under(self, surface: Frame) -> "Plane":
         """The plane of a surface whose frame is given in this plane's coordinates.

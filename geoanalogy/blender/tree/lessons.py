@@ -81,14 +81,15 @@ def learn(item: bpy.types.Object, site: Site, scene: Scene, options: PoseOptions
     """
     pose, ring = pose_of(item, site.plane), footprint_of(item, site.plane, site.depsgraph)
     try:
-        return learn_pose(scene, pose, ring, _with_alternatives(options, site))
+        return learn_pose(scene, pose, ring, _at(site, options))
     except InputError as error:
         raise InputError(f"object {item.name!r}: {error}") from None
 
 
-def _with_alternatives(options: PoseOptions, site: Site) -> PoseOptions:
-    """Options that know which outlines stand for others when results are validated."""
-    return replace(options, alternative_geometry={**options.alternative_geometry, **site.ground.alternatives})
+def _at(site: Site, options: PoseOptions) -> PoseOptions:
+    """Options that know which outlines stand for others when results are validated, and whether things hang there."""
+    alternatives = {**options.alternative_geometry, **site.ground.alternatives}
+    return replace(options, alternative_geometry=alternatives, upright=site.plane.is_wall)
 
 
 def learn_row(
@@ -125,8 +126,8 @@ def learn_row(
     ring = footprint_of(start, site.plane, site.depsgraph)
     last = pose_of(end[0], site.plane) if end else None
     try:
-        drawn = _with_alternatives(options, site)
-        return learn_array(scene, pose_of(start, site.plane), last, spacing, ring, drawn, array_options)
+        pose = pose_of(start, site.plane)
+        return learn_array(scene, pose, last, spacing, ring, _at(site, options), array_options)
     except InputError as error:
         raise InputError(f"object {start.name!r}: {error}") from None
 

@@ -63,9 +63,6 @@ from .store import (
 from .whole import whole_steps, write_whole
 from .writing_nodes import add_node, write_operation, write_placed
 
-#: Upward part of a unit normal from which a face counts as level rather than as a wall: 45 degrees.
-STEEP = 0.7071
-
 #: Least score of results that are shown, unless another is asked for.
 THRESHOLD = PlacementOptions().threshold
 
@@ -361,8 +358,8 @@ def _plane_behind(every: Sequence[Surroundings], wanted: Plane, element: bpy.typ
     plane = surroundings_of(list(every), element, middle).plane
     size = 2 * float(np.linalg.norm(middle - np.array(element.matrix_world.translation))) + max(element.dimensions)
     x, y, height = plane.to_plane([middle])[0]
-    alike = abs(abs(plane.normal[2]) - abs(wanted.normal[2])) < STEEP
+    alike = plane.is_wall == wanted.is_wall
     lies = any(one.plane is plane and one.ground.scene.parent_of((x, y)) is not None for one in every)
     if alike and lies and abs(height) < size:
         return plane
-    return Plane.through(element.matrix_world.translation, (0, 0, 1) if abs(wanted.normal[2]) > STEEP else (0, -1, 0))
+    return Plane.through(element.matrix_world.translation, (0, -1, 0) if wanted.is_wall else (0, 0, 1))
