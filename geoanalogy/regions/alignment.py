@@ -6,17 +6,18 @@ upside-down copy. Elastic alignment compares turning angles along two lines whil
 are spread over a line cost little, corners that only one line has cost much. It needs neither position, rotation nor
 scale.
 
-All stretches of the drawing are compared at once: their samples stand in one row, the dynamic programme walks along the
-query's stretch, and every step of it is a handful of operations on that row.
+Many stretches of the drawing are compared at once: their samples stand in one row, the dynamic programme walks along
+the query's stretch, and every step of it is a handful of operations on that row. Coarse samples tell which stretches,
+and how much of them, are worth being aligned finely.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.contours import Complex, Contours, Floats
+from ..geometry.contours import Complex, Contours, Floats, Indices
 from .courses import Course, lengths
 from .query import Run
 
@@ -39,8 +40,13 @@ GAIN = 3.0
 STRETCH = 1.5
 #: Cost of a corner without counterpart, in square radians.
 CORNER = 0.15
-#: Stretches between two columns: as many as the longest step of the target.
-BARRIER = 3
+#: Columns before every stretch: as many as the longest step of the target. Those of closed lines repeat its last.
+MARGIN = 3
+#: Samples of a first, coarse alignment as a share of those of the second; samplings of each stretch of the drawing, and
+#: in all, that get the second.
+COARSE, EACH_TARGET, MOST_BLOCKS = 0.4, 3, 40
+#: Columns that are compared at once: what fits into the processor's cache.
+WIDTH = 4_000
 
 
 @dataclass(frozen=True)
@@ -51,8 +57,6 @@ class Alignment:
     ----------
     source, target : (n,) complex
         Corresponding points.
-    source_heading, target_heading : (n,) float
-        Directions of the two lines there; the target's already points the way of the query's (mirrored where mirrored).
     mirrored : bool
         Whether the target is a mirror image.
     score : float
@@ -61,20 +65,28 @@ class Alignment:
 
     source: Complex
     target: Complex
-    source_heading: Floats
-    target_heading: Floats
     mirrored: bool
     score: float
 
 
 @dataclass(frozen=True)
 class _Block:
-    """A target stretch at one sampling: where its samples stand in the row of columns."""
+    """A target stretch at one sampling, in one direction.
 
-    start: int
-    period: int
-    course: Course
-    mirrored: bool
+    Attributes
+    ----------
+    target : int
+        Number of the stretch.
+    share : float
+        Its length in lengths of the query's stretch, if its samples were as dense.
+    flip, backward : bool
+        Whether it is mirrored, and walked the other way.
+    """
+
+    target: int
+    share: float
+    flip: bool
+    backward: bool
 
 
 def align(contours: Contours, sources: list[Run], targets: list[Run], mirrored: bool, most: int) -> list[Alignment]:
@@ -103,114 +115,201 @@ def align(contours: Contours, sources: list[Run], targets: list[Run], mirrored: 
         count = round(SAMPLES * length / longest)
         if count < LEAST_SAMPLES:
             break
-        source = Course.along(contours, run, count)
-        if run.closed and source.clockwise:
-            source = source.backward()
-        blocks = list(_blocks(contours, targets, count, run.closed, mirrored))
-        if blocks:
-            out += _walk(source, blocks, length / longest)
+        source = _oriented(contours, run, count)
+        coarse = max(LEAST_SAMPLES, round(COARSE * count))
+        blocks = list(_blocks(targets, count, run.closed, mirrored))
+        if len(blocks) > EACH_TARGET:
+            walks = _walks(contours, targets, blocks, _oriented(contours, run, coarse), length / longest)
+            best = np.concatenate([walk.best() for walk in walks])
+            blocks = [blocks[i] for i in _leading(blocks, best)]
+        for walk in _walks(contours, targets, blocks, source, length / longest):
+            out += walk.alignments()
     out.sort(key=lambda a: -a.score)
     return out[:most]
 
 
-def _blocks(
-    contours: Contours, targets: list[Run], count: int, source_closed: bool, mirrored: bool
-) -> Iterator[_Block]:
+def _oriented(contours: Contours, run: Run, count: int) -> Course:
+    """A stretch sampled with `count` points; closed ones counter-clockwise."""
+    course = Course.along(contours, run, count)
+    return course.backward() if run.closed and course.clockwise else course
+
+
+def _blocks(targets: list[Run], count: int, source_closed: bool, mirrored: bool) -> Iterator[_Block]:
     """Every target stretch at every sampling, in every direction, mirrored or not.
 
     Closed lines are compared in one direction only, counter-clockwise with counter-clockwise: the other one would
     turn a region inside out.
     """
-    start = BARRIER
-    for run in targets:
+    for k, run in enumerate(targets):
         for share in SHARES:
-            n = round(share * count)
-            if n < LEAST_SAMPLES or len(run.indices) < LEAST_SAMPLES:
+            if round(share * count) < LEAST_SAMPLES or len(run.indices) < LEAST_SAMPLES:
                 continue
-            course = Course.along(contours, run, n)
-            if run.closed and course.clockwise:
-                course = course.backward()
             for flip in (False, True) if mirrored else (False,):
-                one = course.reflected() if flip else course
-                if run.closed and flip:
-                    one = one.backward()
-                both = (one,) if run.closed and source_closed else (one, one.backward())
-                for c in both:
-                    period = n if run.closed else 0
-                    yield _Block(start, period, c.twice() if run.closed else c, flip)
-                    start += (2 * n if run.closed else n) + BARRIER
+                for backward in (False,) if run.closed and source_closed else (False, True):
+                    yield _Block(k, share, flip, backward)
 
 
-def _walk(source: Course, blocks: list[_Block], share: float) -> list[Alignment]:
-    """Local alignment of one query stretch with all blocks."""
+def _leading(blocks: list[_Block], best: Floats) -> list[int]:
+    """Numbers of the best blocks of every target, and of those the best in all, in their order."""
+    seen: dict[int, int] = {}
+    kept: list[int] = []
+    for i in np.argsort(-best, kind="stable"):
+        number = seen.get(blocks[i].target, 0)
+        if number < EACH_TARGET and len(kept) < MOST_BLOCKS:
+            kept.append(int(i))
+            seen[blocks[i].target] = number + 1
+    return sorted(kept)
+
+
+def _walks(
+    contours: Contours, targets: list[Run], blocks: Iterable[_Block], source: Course, share: float
+) -> Iterator["_Walk"]:
+    """Local alignments of a stretch of the query with blocks, as many at once as are WIDTH columns."""
     count = len(source.points)
-    if source.closed:
-        source = source.twice()
-    heading, corners = source.heading, source.corners
-    rows, width = len(source.points), blocks[-1].start + len(blocks[-1].course.points) + BARRIER
-    barrier = np.ones(width, bool)
-    angle, room = np.zeros(width, np.float32), np.full(width, 10**6, np.int32)
-    corner = np.zeros(width, np.float32)
+    courses: list[tuple[Course, bool]] = []
+    width = 0
+    sampled: dict[tuple[int, int], Course] = {}
     for block in blocks:
-        course = block.course
-        here = slice(block.start, block.start + len(course.points))
-        barrier[here], angle[here], corner[here] = False, course.heading - course.heading[0], course.corners
-        if block.period:
-            room[here] = block.period
-    open_ = ~barrier
-    turn = {b: angle[b:] - angle[:-b] for _, b in STEPS}
-    passed = {b: corner[b:] - corner[:-b] for _, b in STEPS}
-    reward = {s: np.float32(share / count * (GAIN * min(s) - STRETCH * s[0] * np.log(s[1] / s[0]) ** 2)) for s in STEPS}
-    score = np.zeros((rows, width), np.float32)
-    score[:, barrier] = -np.inf
-    step = np.full((rows, width), -1, np.int8)
-    origin = np.empty((rows, width), np.int32)  # column where the alignment began
-    begin = np.empty((rows, width), np.int16)  # row where it began
-    columns = np.arange(width, dtype=np.int32)
-    for i in range(rows):
-        best, chosen = score[i], step[i]
-        origin[i], begin[i] = columns, i
-        for k, s in enumerate(STEPS):
-            a, b = s
-            if a > i:
-                continue
-            turned, met = np.float32(heading[i] - heading[i - a]), np.float32(corners[i] - corners[i - a])
-            value = score[i - a, :-b] + (reward[s] - (turn[b] - turned) ** 2 - CORNER * (passed[b] - met) ** 2)
-            better = (value > best[b:]) & open_[b:]
-            better &= i - begin[i - a, :-b] <= count
-            better &= columns[b:] - origin[i - a, :-b] <= room[b:]
-            at = np.flatnonzero(better)
-            best[at + b], chosen[at + b] = value[at], k
-            origin[i, at + b], begin[i, at + b] = origin[i - a, at], begin[i - a, at]
-    out = []
-    for block in blocks:
-        out += _best_of(block, score, step, source, count)
-    return out
+        run, n = targets[block.target], max(4, round(block.share * count))
+        if (block.target, n) not in sampled:
+            sampled[block.target, n] = _oriented(contours, run, n)
+        course = sampled[block.target, n]
+        if block.flip:
+            course = course.reflected().backward() if run.closed else course.reflected()
+        courses.append((course.backward() if block.backward else course, block.flip))
+        width += n + MARGIN
+        if width > WIDTH:
+            yield _Walk(source, courses, share)
+            courses, width = [], 0
+    if courses:
+        yield _Walk(source, courses, share)
 
 
-def _best_of(
-    block: _Block, score: NDArray[np.float32], step: NDArray[np.int8], source: Course, count: int, keep: int = 3
-) -> list[Alignment]:
-    """The best alignments that end in a block, with clearly different courses."""
-    here = score[:, block.start : block.start + len(block.course.points)].copy()
-    share = block.period or len(block.course.points)
-    rows, columns = np.indices(here.shape)
-    period = float(share if source.closed or block.period else 10**6)
-    diagonal = np.asarray((columns - rows * (share / count)) % period, dtype=np.float64)
-    out: list[Alignment] = []
-    while len(out) < keep:
-        i, j = divmod(int(here.argmax()), here.shape[1])
-        value = float(here[i, j])
-        if value < 0.15 * GAIN:
-            break
-        path = [(i, j)]
-        while step[path[-1][0], path[-1][1] + block.start] >= 0:
-            a, b = STEPS[step[path[-1][0], path[-1][1] + block.start]]
-            path.append((path[-1][0] - a, path[-1][1] - b))
+class _Walk:
+    """Local alignment of one stretch of the query with a row of courses.
+
+    Parameters
+    ----------
+    source : Course
+    courses : list of (Course, bool)
+        Each with whether it is mirrored.
+    share : float
+        Length of the query's stretch in lengths of the longest one: what a perfect alignment is worth.
+    """
+
+    def __init__(self, source: Course, courses: list[tuple[Course, bool]], share: float):
+        self.source, self.courses, self.count = source, courses, len(source.points)
+        self.share = share
+        sizes = np.array([len(c.points) for c, _ in courses])
+        self.start = np.cumsum(sizes + MARGIN) - sizes
+        width = int(self.start[-1] + sizes[-1])
+        rows = 2 * self.count if source.closed else self.count
+        self.score = np.zeros((rows, width), np.float32)
+        self.step = np.full((rows, width), -1, np.int8)
+        self.passed = np.zeros((rows, width), np.int16)  # samples of the query since the alignment began
+        self.gone = np.zeros((rows, width), np.int16)  # samples of the target
+        self._fill()
+
+    def _row(self) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int16], NDArray[np.bool_], Indices]:
+        """Of every column heading, count of corners, length of its course if closed; margins, and those that wrap."""
+        width = self.score.shape[1]
+        heading, corner = np.zeros(width, np.float32), np.zeros(width, np.float32)
+        room = np.full(width, 10**4, np.int16)
+        margin = np.ones(width, bool)
+        wrapped: list[Indices] = [np.zeros(0, np.intp)]
+        for (course, _), start in zip(self.courses, self.start, strict=True):
+            n = len(course.points)
+            here, before, last = slice(start, start + n), slice(start - MARGIN, start), slice(-MARGIN, None)
+            margin[here] = False
+            heading[here], corner[here] = course.heading - course.heading[0], course.corners
+            if course.closed:
+                twice = course.twice()
+                room[here] = n
+                heading[before] = heading[here][last] - (twice.heading[n] - twice.heading[0])
+                corner[before] = corner[here][last] - (twice.corners[n] - twice.corners[0])
+                wrapped.append(np.arange(start - MARGIN, start))
+        return heading, corner, room, margin, np.concatenate(wrapped)
+
+    def _fill(self) -> None:
+        """All states, row by row."""
+        single, rows, width = np.float32, *self.score.shape
+        heading, corner, room, margin, wrapped = self._row()
+        period = room[wrapped + MARGIN]
+        walked = self.source.twice() if self.source.closed else self.source
+        own_heading, own_corner = walked.heading.astype(single), walked.corners.astype(single)
+        unit = self.share / self.count
+        reward = [single(unit * (GAIN * min(s) - STRETCH * s[0] * np.log(s[1] / s[0]) ** 2)) for s in STEPS]
+        turn = {b: heading[b:] - heading[:-b] for _, b in STEPS}
+        met = {b: corner[b:] - corner[:-b] for _, b in STEPS}
+        value = np.empty((len(STEPS), width), single)
+        since, along = np.zeros((2, len(STEPS), width), np.int16)
+        columns = np.arange(width)
+        going: dict[int, list[NDArray[np.float32]]] = {}  # scores of rows, by steps that closed courses have left
+        for i in range(rows):
+            value[:] = -np.inf
+            for k, (a, b) in enumerate(STEPS):
+                if a > i:
+                    continue
+                cost = turn[b] - (own_heading[i] - own_heading[i - a])
+                cost *= cost
+                missed = met[b] - (own_corner[i] - own_corner[i - a])
+                missed *= missed
+                missed *= single(CORNER)
+                cost += missed
+                np.subtract(going[i - a][b - 1], cost, out=value[k, b:])
+                value[k, b:] += reward[k]
+                np.add(self.passed[i - a, :-b], np.int16(a), out=since[k, b:])
+                np.add(self.gone[i - a, :-b], np.int16(b), out=along[k, b:])
+                if i >= self.count:
+                    value[k, since[k] > self.count] = -np.inf
+            value[:, margin] = -np.inf
+            best = value.argmax(0)
+            top = value[best, columns]
+            on = top > 0.0
+            self.score[i] = np.where(on, top, 0.0)
+            self.score[i, margin] = -np.inf
+            self.step[i] = np.where(on, best, -1)
+            self.passed[i] = np.where(on, since[best, columns], 0)
+            self.gone[i] = np.where(on, along[best, columns], 0)
+            reached = self.score[i].copy()
+            reached[wrapped] = reached[wrapped + period]
+            for state in (self.passed[i], self.gone[i]):
+                state[wrapped] = state[wrapped + period]
+            going[i] = [
+                np.where(self.gone[i, :-b] + np.int16(b) > room[b:], single(-np.inf), reached[:-b])
+                for b in range(1, MARGIN + 1)
+            ]
+            going.pop(i - MARGIN, None)
+
+    def best(self) -> Floats:
+        """The best score of every course, (n,)."""
+        ends = np.maximum.reduceat(self.score.max(0), self.start)
+        return np.asarray(ends, dtype=np.float64)
+
+    def alignments(self, keep: int = 3) -> Iterator[Alignment]:
+        """The best alignments that end in each course, with clearly different ways."""
+        rows = np.arange(len(self.score))[:, None]
+        for (course, mirrored), start in zip(self.courses, self.start, strict=True):
+            n = len(course.points)
+            here = self.score[:, start : start + n].copy()
+            ring = self.source.closed or course.closed
+            period = float(n if ring else 10**6)
+            diagonal = (np.arange(n) - rows * (n / self.count)) % period
+            for _ in range(keep):
+                i, j = divmod(int(here.argmax()), n)
+                value = float(here[i, j])
+                if value < 0.15 * GAIN:
+                    break
+                yield self._traced(i, j, start, course, mirrored, value)
+                gap = np.abs(diagonal - diagonal[i, j])
+                gap = np.minimum(gap, period - gap)
+                here[gap < 0.15 * n] = -np.inf
+
+    def _traced(self, i: int, j: int, start: int, course: Course, mirrored: bool, value: float) -> Alignment:
+        """The alignment that ends at a sample of the query and one of a course."""
+        n, path = len(course.points), [(i, j)]
+        while (k := int(self.step[i, start + j % n])) >= 0:
+            i, j = i - STEPS[k][0], j - STEPS[k][1]
+            path.append((i, j))
         q, t = np.array(path[::-1]).T
-        c = block.course
-        out.append(Alignment(source.points[q], c.points[t], source.heading[q], c.heading[t], block.mirrored, value))
-        gap = np.abs(diagonal - diagonal[i, j])
-        gap = np.minimum(gap, period - gap)
-        here[gap < 0.15 * share] = -np.inf
-    return out
+        return Alignment(self.source.points[q % self.count], course.points[t % n], mirrored, value)

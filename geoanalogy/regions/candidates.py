@@ -25,8 +25,11 @@ from .transformation import Nodes
 
 #: Alignments, chains and sets of correspondences that become candidates at most.
 MOST_ALIGNED, MOST_CHAINED, MOST_CLUSTERS = 60, 60, 40
-#: Candidates of each place, of each source, and in all, that are kept.
-EACH_PLACE, EACH_SOURCE, MOST_STARTS = 6, 32, 48
+#: Candidates of chains, alignments, sets and groups that are kept as the best of their kind: of each place, and in all.
+#: What a part was cut from brings fewer lines onto lines than what is wrong, but its chain is as good.
+QUOTAS = ((4, 14), (3, 10), (1, 3), (1, 2))
+#: Candidates of each place, of each source, and in all, of which those are added that bring most lines onto lines.
+EACH_PLACE, EACH_SOURCE, MOST_STARTS = 6, 32, 44
 #: Share of the query points that a set of correspondences must have.
 LEAST_SHARE = 0.15
 #: Candidates whose query points land on average nearer than this, in extents of the query, are one.
@@ -122,18 +125,20 @@ def candidates(
             fitter.target, fitter.samples.points, region.size, options.mirrored, options.largest_scale
         )
     ]
-    starts: list[Start] = []
-    for some in (*along, linked, laid):
-        starts += _chosen(_distinct(some, SAME * region.size), fitter)
-    return Candidates(_promising(_distinct(starts, SAME * region.size), fitter), alignments, chains, refined)
+    near = SAME * region.size
+    sources = [_distinct(some, near) for some in (*along, linked, laid)]
+    best = [s for some, quota in zip(sources, QUOTAS, strict=True) for s in _first(some, fitter, *quota)]
+    others = [s for some in sources for s in _first(some, fitter, EACH_PLACE, EACH_SOURCE)]
+    starts = _distinct(best + _promising(others, fitter), near)[:MOST_STARTS]
+    return Candidates(starts, alignments, chains, refined)
 
 
-def _chosen(starts: list[Start], fitter: Fitter) -> list[Start]:
-    """The first candidates of every place, best first."""
+def _first(starts: list[Start], fitter: Fitter, each: int, most: int) -> list[Start]:
+    """The first candidates of every place, in their order."""
     if not starts:
         return []
     unknowns, mirrored = np.array([u for u, _ in starts]), np.array([flip for _, flip in starts])
-    return [starts[i] for i in fitter.apart(unknowns, mirrored, EACH_PLACE, EACH_SOURCE)]
+    return [starts[i] for i in fitter.apart(unknowns, mirrored, each, most)]
 
 
 def _promising(starts: list[Start], fitter: Fitter) -> list[Start]:
@@ -142,8 +147,7 @@ def _promising(starts: list[Start], fitter: Fitter) -> list[Start]:
         return []
     unknowns, mirrored = np.array([u for u, _ in starts]), np.array([flip for _, flip in starts])
     order = np.argsort(-fitter.promise(unknowns, mirrored), kind="stable")
-    apart = fitter.apart(unknowns[order], mirrored[order], EACH_PLACE, MOST_STARTS)
-    return [starts[order[i]] for i in apart]
+    return _first([starts[i] for i in order], fitter, EACH_PLACE, MOST_STARTS)
 
 
 def _distinct(starts: list[Start], near: float) -> list[Start]:

@@ -23,11 +23,20 @@ from .query import Run
 
 #: Grades of detail: distance, in extents of a line, within which vertices are no corners, and longest chord, as a share
 #: of a line's length. What only one grade says is chance, what all of them say is the shape.
-GRADES = tuple((corner, chord) for corner in (0.006, 0.01, 0.015) for chord in (1.0, 0.1))
+GRADES = tuple((corner, chord) for corner in (0.015, 0.01, 0.006) for chord in (1.0, 0.1))
 #: Uncertainty of a corner's place, in extents of its line.
 BLUR = 0.006
 #: Chords that a chord may take in at most: two corners of either line may have no counterpart.
 TAKEN_IN = 3
+#: Corners that a chord of the query and one of the drawing take in: only one of the two passes over any.
+CHORDS = ((1, 1), (1, 2), (1, 3), (2, 1), (3, 1))
+#: Which of CHORDS take in so many corners of the query, and those of the drawing (less one) that they then may.
+BY_QUERY = {1: (slice(0, 3), slice(0, 3)), 2: (slice(3, 4), slice(0, 1)), 3: (slice(4, 5), slice(0, 1))}
+#: Corners of the drawing that are compared at once: what fits into the processor's cache.
+WIDTH = 900
+#: Of the drawing's stretches, those that the finer grades look at: the best of the coarsest grade, and all that are
+#: worth this share of the best.
+LEADING, NEARLY = 12, 0.6
 #: Standard deviation of the change of rotation, and of the logarithm of scale, at a joint of one bent shape.
 TURN, SCALE = np.radians(14.0), 0.28
 #: What a joint without any change is worth, for its rotation and for its scale, and the most that one costs.
@@ -40,8 +49,8 @@ MOST_SOURCES, MOST_TARGETS, MOST_CORNERS = 4, 80, 1_500
 LEAST_LENGTH = 0.2
 #: Corners of a stretch at most; of lines with more the smallest are left out.
 MOST_OF_LINE = 90
-#: Chains of every stretch that are kept, and the least score of one that is.
-KEPT, LEAST_SCORE = 3, 1.5
+#: Chains of every stretch that are kept, and the least score of one that is, in all and beside the best so far.
+KEPT, LEAST_SCORE, WEAK = 3, 1.5, 0.2
 #: Pairs of points that a chain is sampled with.
 PAIRS = 48
 
@@ -92,9 +101,15 @@ class _Block:
     """A stretch of the drawing, in one direction, mirrored or not, and where its corners stand in the row of all."""
 
     start: int
-    period: int
+    closed: bool
     corners: Complex
     mirrored: bool
+    target: int
+
+    @property
+    def columns(self) -> slice:
+        """Its corners in the row of all."""
+        return slice(self.start, self.start + len(self.corners))
 
 
 def corners(line: Complex, closed: bool, grade: tuple[float, float]) -> Complex:
@@ -150,24 +165,36 @@ def chain(contours: Contours, sources: list[Run], targets: list[Run], mirrored: 
     """
     length = lengths(contours, sources[:MOST_SOURCES])
     sources = [run for run, own in zip(sources, length, strict=False) if own >= LEAST_LENGTH * length[0]]
+    targets = targets[:MOST_TARGETS]
     found: list[Chain] = []
     most = np.zeros((len(GRADES), len(sources)))
+    promising = [np.arange(len(targets))] * len(sources)
     for g, grade in enumerate(GRADES):
-        blocks: dict[bool, list[_Block]] = {}
+        lines = [corners(contours.drawn[run.indices], run.closed, grade) for run in targets]
         for k, run in enumerate(sources):
             own = corners(contours.drawn[run.indices], run.closed, grade)
             joints = len(own) - (1 if run.closed else 2)
             if joints < 1:
                 continue
             most[g, k] = joints * (TURN_GAIN + SCALE_GAIN)
-            if run.closed not in blocks:
-                blocks[run.closed] = list(_blocks(contours, targets, run.closed, mirrored, grade))
-            if blocks[run.closed]:
-                if run.closed and _area(own) < 0.0:
-                    own = own[::-1]
-                found += _Walk(own, run.closed, blocks[run.closed]).chains(g, k)
+            if run.closed and _area(own) < 0.0:
+                own = own[::-1]
+            best = np.zeros(len(targets))
+            for row in _rows(lines, targets, promising[k], run.closed, mirrored):
+                least = max(LEAST_SCORE, WEAK * best.max())
+                for target, one in _Walk(own, run.closed, row).chains(g, k, least):
+                    found.append(one)
+                    best[target] = max(best[target], one.score)
+            if g == 0:
+                promising[k] = _leading(best)
     found.sort(key=lambda c: -c.score)
     return Chains(found, most)
+
+
+def _leading(best: Floats) -> Indices:
+    """Targets that are worth a closer look, in their order: the first LEADING, and all that are nearly as good."""
+    order = np.argsort(-best, kind="stable")
+    return np.sort(order[(np.arange(len(best)) < LEADING) | (best[order] >= NEARLY * best[order[0]])])
 
 
 def _area(ring: Complex) -> float:
@@ -175,32 +202,41 @@ def _area(ring: Complex) -> float:
     return float((np.conj(ring) * np.roll(ring, -1)).imag.sum())
 
 
-def _blocks(
-    contours: Contours, targets: list[Run], source_closed: bool, mirrored: bool, grade: tuple[float, float]
-) -> Iterator[_Block]:
-    """Every stretch of the drawing in every direction, mirrored or not; rings are compared counter-clockwise only."""
-    start = 0
-    for run in targets[:MOST_TARGETS]:
-        own = corners(contours.drawn[run.indices], run.closed, grade)
+def _rows(
+    lines: list[Complex], targets: list[Run], which: Indices, source_closed: bool, mirrored: bool
+) -> Iterator[list[_Block]]:
+    """Every stretch of the drawing in every direction, mirrored or not, in rows of about WIDTH corners.
+
+    Rings are compared counter-clockwise only: the other way round a region would be turned inside out.
+    """
+    start, corners_seen = 0, 0
+    row: list[_Block] = []
+    for k in which:
+        own, closed = lines[k], targets[k].closed
         if len(own) < 3:
             continue
-        if start > MOST_CORNERS * (4 if mirrored else 2):
+        if corners_seen > MOST_CORNERS:
             break
+        corners_seen += len(own)
         for flip in (False, True) if mirrored else (False,):
             one = np.conj(own) if flip else own
-            if run.closed and _area(one) < 0.0:
+            if closed and _area(one) < 0.0:
                 one = one[::-1]
-            for way in (one,) if run.closed and source_closed else (one, one[::-1]):
-                z = np.tile(way, 2) if run.closed else way
-                yield _Block(start, len(way) if run.closed else 0, z, flip)
-                start += len(z) + TAKEN_IN
+            for way in (one,) if closed and source_closed else (one, one[::-1]):
+                row.append(_Block(start, closed, way, flip, k))
+                start += len(way)
+        if start >= WIDTH:
+            yield row
+            start, row = 0, []
+    if row:
+        yield row
 
 
 class _Walk:
-    """The dynamic programme along one stretch of the query, over all blocks at once.
+    """The dynamic programme along one stretch of the query, over the blocks of a row at once.
 
-    A state is a pair of chords: (corner e where the query's ends, corners a it takes in; b corners that the target's
-    takes in, corner of the row of blocks where it ends). Arrays are (rows, a, b, columns).
+    A state is a pair of chords that end at a corner of the query and at a corner of the row; CHORDS says how many
+    corners the two take in. Arrays are (rows, chords, columns); columns of closed lines wrap round.
     """
 
     def __init__(self, source: Complex, closed: bool, blocks: list[_Block]):
@@ -208,124 +244,130 @@ class _Walk:
         self.count, self.closed = len(source), closed
         extent = float(np.hypot(np.ptp(source.real), np.ptp(source.imag)))
         self.source = np.tile(source, 2) if closed else source
-        rows, width = len(self.source), blocks[-1].start + len(blocks[-1].corners) + TAKEN_IN
-        row = np.full(width, np.nan, complex)
-        room = np.full(width, 10**6)
+        width = blocks[-1].columns.stop
+        row, room = np.empty(width, complex), np.full(width, 10**4, np.int16)
+        begin = np.empty((TAKEN_IN, width), int)  # where chords that end here begin, -1 beyond the end of an open line
         for block in blocks:
-            here = slice(block.start, block.start + len(block.corners))
+            here, n = block.columns, len(block.corners)
             row[here] = block.corners / np.hypot(np.ptp(block.corners.real), np.ptp(block.corners.imag))
-            if block.period:
-                room[here] = block.period
-        shape = (rows, TAKEN_IN, TAKEN_IN, width)
+            back = np.arange(n) - np.arange(1, TAKEN_IN + 1)[:, None]
+            if block.closed:
+                room[here] = n
+            begin[:, here] = np.where(back >= 0, back, back % n if block.closed else -1 - block.start) + block.start
+        shape = (len(self.source), len(CHORDS), width)
         self.score = np.full(shape, -np.inf, np.float32)
         self.back = np.full(shape, -1, np.int8)
-        self.begin_row, self.begin_column = np.zeros(shape, np.int16), np.zeros(shape, np.int32)
-        self._fill(self.source / extent, row, room)
+        self.passed = np.zeros(shape, np.int16)  # corners of the query since the chain began
+        self.gone = np.zeros(shape, np.int16)  # corners of the target
+        self._fill(self.source / extent, row, begin, room)
 
-    def _fill(self, source: Complex, row: Complex, room: Indices) -> None:
+    def _fill(self, source: Complex, row: Complex, begin: Indices, room: NDArray[np.int16]) -> None:
         """All states, row by row."""
-        width = len(row)
-        change = np.zeros(self.score.shape[1:], np.complex64)  # of the row of states at hand
-        blur = np.zeros(self.score.shape[1:], np.float32)
-        column = np.arange(width)
-        begin = np.stack([np.roll(column, b) for b in range(1, TAKEN_IN + 1)])  # where chords that end here begin
-        begin = np.where(begin > column, 0, begin)
-        chord = row[None] - row[begin]
-        chord[np.abs(chord) == 0.0] = np.nan
-        missed = np.stack([_missed(row, begin[b - 1], b, chord[b - 1]) for b in range(1, TAKEN_IN + 1)])
-        with np.errstate(invalid="ignore"):
-            length, own_blur = np.log(chord).astype(np.complex64), (BLUR / np.abs(chord)).astype(np.float32) ** 2
-        possible = np.isfinite(length.real)
+        single, number, width = np.float32, len(CHORDS), len(row)
+        chord = row - row[begin]
+        chord[(begin < 0) | (chord == 0.0)] = np.nan
+        with np.errstate(invalid="ignore", divide="ignore"):
+            ratio = np.log(np.abs(chord)).astype(single)
+            way = (np.angle(chord) / (2.0 * np.pi)).astype(single)  # in whole turns, which wrap by rounding
+            doubt = ((BLUR / np.abs(chord)) ** 2).astype(single)
+        possible = np.isfinite(ratio)
+        price = np.zeros(chord.shape)
+        for span in range(1, TAKEN_IN):
+            price[span] = _missed(row[begin[:span]], row[begin[span]], chord[span])
+        ratio, way, doubt = (np.where(possible, x, 0.0).astype(single) for x in (ratio, way, doubt))
+        price = np.where(possible, price, np.inf).astype(single)
+        # the states at the corners where chords begin, by corner of the query: (chords, chords of the target, columns)
         recent: dict[int, tuple[NDArray, ...]] = {}
+        scale, turn = np.zeros((number, width), single), np.zeros((number, width), single)
+        blur = np.zeros((number, width), single)
+        turned = single((2.0 * np.pi * SCALE / TURN) ** 2)  # so that scale and turn have one deviation
+        column, taken = np.arange(width), np.array([b for _, b in CHORDS], np.int16)[:, None]
+        room = room - np.arange(1, TAKEN_IN + 1, dtype=np.int16)[:, None]
         for e in range(len(source)):
+            self.score[e, :, :] = -np.inf
             for a in range(1, min(TAKEN_IN, e) + 1):
                 s = e - a
                 step = source[e] - source[s]
                 if step == 0.0:
                     continue
-                price = _missed(source, np.array([s]), a, np.array([step]))[0]
-                now = length - np.complex64(np.log(step))  # (b, columns)
-                doubt = own_blur + np.float32((BLUR / abs(step)) ** 2)
-                # the chords before: (a', b', b, columns), where this one begins
-                score, ratio, turned, unsure, first_row, first_column = recent[s]
-                unsure = unsure + doubt
-                turn = now.imag - turned
-                turn -= np.float32(2.0 * np.pi) * np.round(turn * np.float32(0.5 / np.pi))
-                most = np.float32(MOST_COST)
-                worth = score - np.minimum(turn**2 / (np.float32(2.0 * TURN**2) + 2.0 * unsure), most)
-                worth -= np.minimum((now.real - ratio) ** 2 / (np.float32(2.0 * SCALE**2) + 2.0 * unsure), most)
-                fits = column - first_column <= room
-                if self.closed:
-                    fits &= e - first_row <= self.count
-                worth = np.where(fits & (worth > 0.0), worth, 0.0).reshape(-1, TAKEN_IN, width)
+                own, beside = BY_QUERY[a]
+                cost = float(_missed(source[s + 1 : e], source[s], step))
+                now_scale = ratio[beside] - single(np.log(abs(step)))
+                now_turn = way[beside] - single(np.angle(step) / (2.0 * np.pi))
+                now_blur = doubt[beside] + single((BLUR / abs(step)) ** 2)
+                score, was_scale, was_turn, was_blur, passed, gone = (x[:, beside] for x in recent[s])
+                doubtful = was_blur + (now_blur + single(SCALE**2))
+                np.divide(single(0.5), doubtful, out=doubtful)
+                miss = now_turn - was_turn
+                miss -= np.rint(miss)
+                miss *= miss
+                miss *= doubtful
+                worth = score - np.minimum(miss * turned, single(MOST_COST))
+                np.subtract(now_scale, was_scale, out=miss)
+                miss *= miss
+                miss *= doubtful
+                worth -= np.minimum(miss, single(MOST_COST), out=miss)
+                if self.closed and e > self.count:
+                    worth[passed + a > self.count] = -np.inf
                 best = worth.argmax(0)
-                value = np.take_along_axis(worth, best[None], 0)[0]
+                at = (best, np.arange(len(best))[:, None], column)
+                value = worth[at]
                 goes_on = value > 0.0
-                at = np.unravel_index(best, (TAKEN_IN, TAKEN_IN))
-                self.score[e, a - 1] = np.where(possible, value - price - missed, -np.inf)
-                self.back[e, a - 1] = np.where(goes_on, best, -1)
-                self.begin_row[e, a - 1] = np.where(goes_on, self.begin_row[s][at[0], at[1], begin], s)
-                self.begin_column[e, a - 1] = np.where(goes_on, self.begin_column[s][at[0], at[1], begin], begin)
-                change[a - 1], blur[a - 1] = now, doubt
-            ended = change[:, :, begin]
-            recent[e] = (
-                self.score[e][:, :, begin] + np.float32(TURN_GAIN + SCALE_GAIN),
-                ended.real.copy(),
-                ended.imag.copy(),
-                blur[:, :, begin],
-                self.begin_row[e][:, :, begin],
-                self.begin_column[e][:, :, begin],
-            )
+                self.score[e, own] = np.where(goes_on, value, 0.0) - (price[beside] + single(cost))
+                self.back[e, own] = np.where(goes_on, best, -1)
+                self.passed[e, own] = np.where(goes_on, passed[at], 0) + a
+                self.gone[e, own] = np.where(goes_on, gone[at], 0) + taken[own]
+                scale[own], turn[own], blur[own] = now_scale, now_turn, now_blur
+            gone = self.gone[e][:, begin]
+            reached = self.score[e][:, begin] + single(TURN_GAIN + SCALE_GAIN)
+            reached[gone > room] = -np.inf
+            recent[e] = (reached, scale[:, begin], turn[:, begin], blur[:, begin], self.passed[e][:, begin], gone)
             recent.pop(e - TAKEN_IN, None)
 
-    def chains(self, grade: int, run: int) -> list[Chain]:
-        """The best chains of every block, each with another beginning."""
-        out: list[Chain] = []
+    def chains(self, grade: int, run: int, least: float) -> Iterator[tuple[int, Chain]]:
+        """The best chains of every block, each with another beginning, and the number of their target."""
+        e = np.arange(len(self.source))[:, None, None]
         for block in self.blocks:
-            here = slice(block.start, block.start + len(block.corners))
-            score = self.score[:, :, :, here].copy()
-            first = self.begin_row[:, :, :, here] % self.count if self.closed else self.begin_row[:, :, :, here]
-            second = self.begin_column[:, :, :, here] - block.start
-            if block.period:
-                second = second % block.period
+            score = self.score[:, :, block.columns]
+            value = float(score.max())
+            if not value > least:
+                continue
+            score, n = score.copy(), len(block.corners)
+            first = (e - self.passed[:, :, block.columns]) % self.count
+            second = (np.arange(n) - self.gone[:, :, block.columns]) % n
             for _ in range(KEPT):
-                best = int(score.argmax())
-                value = float(score.ravel()[best])
-                if not value > LEAST_SCORE:
+                best = np.unravel_index(int(score.argmax()), score.shape)
+                value = float(score[best])
+                if not value > least:
                     break
-                e, a, b, c = np.unravel_index(best, score.shape)
-                out.append(self._traced(block, (int(e), int(a), int(b), int(c) + block.start), value, grade, run))
-                score[(first == first[e, a, b, c]) & (second == second[e, a, b, c])] = -np.inf
-        return out
+                state = (int(best[0]), int(best[1]), int(best[2]))
+                yield block.target, self._traced(block, state, value, grade, run)
+                score[(first == first[best]) & (second == second[best])] = -np.inf
 
-    def _traced(self, block: _Block, state: tuple[int, int, int, int], value: float, grade: int, run: int) -> Chain:
+    def _traced(self, block: _Block, state: tuple[int, int, int], value: float, grade: int, run: int) -> Chain:
         """The chain that ends in a state, sampled evenly along the query's line."""
-        e, a, b, c = state
-        pairs = [(e, c)]
-        while True:
-            before = int(self.back[e, a, b, c])
-            e, c = e - a - 1, c - b - 1
-            pairs.append((e, c))
-            if before < 0:
-                break
-            a, b = divmod(before, TAKEN_IN)
+        e, k, column = state
+        n = len(block.corners)
+        t = n if block.closed else column  # a closed line is unrolled so that it ends where the chain does
+        way = block.corners[(column - t + np.arange(t + 1)) % n]
+        pairs = [(e, t)]
+        while k >= 0:
+            a, b = CHORDS[k]
+            k = int(self.back[e, k, block.start + column])
+            e, t, column = e - a, t - b, (column - b) % n
+            pairs.append((e, t))
         q, t = np.array(pairs[::-1]).T
-        t = t - block.start
-        way, goal = _arc(self.source), _arc(block.corners)
-        at = np.linspace(way[q[0]], way[q[-1]], PAIRS)
-        there = np.interp(at, way[q], goal[t])
-        return Chain(
-            _along(self.source, way, at), _along(block.corners, goal, there), block.mirrored, value, grade, run
-        )
+        arc, goal = _arc(self.source), _arc(way)
+        where = np.linspace(arc[q[0]], arc[q[-1]], PAIRS)
+        there = np.interp(where, arc[q], goal[t])
+        return Chain(_along(self.source, arc, where), _along(way, goal, there), block.mirrored, value, grade, run)
 
 
-def _missed(line: Complex, begin: Indices, taken_in: int, chord: Complex) -> Floats:
-    """What the corners cost that chords pass over."""
-    price = np.zeros(len(chord))
+def _missed(between: Complex, begin: Complex | complex, chord: Complex | complex) -> Floats:
+    """What the corners cost that chords pass over, added over the first axis."""
     with np.errstate(invalid="ignore"):
-        for k in range(1, taken_in):
-            beside = np.abs(((line[np.minimum(begin + k, len(line) - 1)] - line[begin]) / chord).imag)
-            price += MISSED + MISSED_MORE * np.minimum(1.0, np.nan_to_num(beside, nan=1.0) / SALIENT)
+        beside = np.abs(((between - begin) / chord).imag)
+    price: Floats = (MISSED + MISSED_MORE * np.minimum(1.0, np.nan_to_num(beside, nan=1.0) / SALIENT)).sum(0)
     return price
 
 

@@ -143,13 +143,16 @@ def node_support(fitter: Fitter, found: Floats) -> Floats:
     return (weight @ found) / weight.sum(1)
 
 
-def agreement(fitter: Fitter, fits: list[Fit], chains: Chains, alignments: list[Alignment]) -> tuple[Floats, Floats]:
-    """What the chains and alignments that agree with each fit are worth.
+def agreement(
+    fitter: Fitter, unknowns: Complex, mirrored: NDArray[np.bool_], chains: Chains, alignments: list[Alignment]
+) -> tuple[Floats, Floats]:
+    """What the chains and alignments that agree with each function are worth.
 
     Parameters
     ----------
     fitter : Fitter
-    fits : list[Fit]
+    unknowns : (h, 2m) complex
+    mirrored : (h,) bool
     chains : Chains
     alignments : list[Alignment]
 
@@ -160,31 +163,49 @@ def agreement(fitter: Fitter, fits: list[Fit], chains: Chains, alignments: list[
     aligned : (h,) float
         Score of the best alignment.
     """
-    chained = np.zeros((len(fits), *chains.most.shape))
+    chained = np.zeros((len(unknowns), *chains.most.shape))
     some = chains.found[:MOST_CHAINS]
-    share = _agreeing(fitter, fits, some)
+    share = _agreeing(fitter, unknowns, mirrored, some)
     for k, chain in enumerate(some):
         here = chained[:, chain.grade, chain.run]
         np.maximum(here, chain.score * share[:, k], out=here)
     scores = np.array([a.score for a in alignments])
-    aligned = (_agreeing(fitter, fits, alignments) * scores).max(1, initial=0.0)
+    aligned = (_agreeing(fitter, unknowns, mirrored, alignments) * scores).max(1, initial=0.0)
     return chained.sum(2).mean(1), aligned
 
 
-def _agreeing(fitter: Fitter, fits: list[Fit], some: Sequence[Chain | Alignment]) -> Floats:
-    """How far fits agree with chains or alignments, (h, k) from 0 to 1."""
-    if not some or not fits:
-        return np.zeros((len(fits), len(some)))
+def _agreeing(
+    fitter: Fitter, unknowns: Complex, mirrored: NDArray[np.bool_], some: Sequence[Chain | Alignment]
+) -> Floats:
+    """How far functions agree with chains or alignments, (h, k) from 0 to 1."""
+    if not some or not len(unknowns):
+        return np.zeros((len(unknowns), len(some)))
     picked = [np.linspace(0, len(c.source) - 1, LOOKED_AT).round().astype(int) for c in some]
     source = np.concatenate([c.source[at] for c, at in zip(some, picked, strict=True)])
     goal = np.concatenate([c.target[at] for c, at in zip(some, picked, strict=True)])
     rows = fitter.nodes.rows(source)
-    unknowns = np.array([np.concatenate([f.function.position, f.function.factor]) for f in fits])
     unit = np.abs(unknowns[:, len(fitter.nodes.at) :]).mean(1) * fitter.size
-    gap = np.abs(unknowns @ rows.T - goal).reshape(len(fits), len(some), LOOKED_AT).mean(2)
+    gap = np.abs(unknowns @ rows.T - goal).reshape(len(unknowns), len(some), LOOKED_AT).mean(2)
     share = np.exp(-0.5 * (gap / (AGREEING * unit[:, None])) ** 2)
-    mirrored = np.array([f.function.mirrored for f in fits])
     return np.where(mirrored[:, None] == np.array([c.mirrored for c in some]), share, 0.0)
+
+
+def corners_met(chained: Floats, most: float) -> Floats:
+    """Evidence of chains as a share of ENOUGH, or of what an identical copy would have, where that is less.
+
+    Parameters
+    ----------
+    chained : (h,) float
+    most : float
+        What an identical copy would have.
+
+    Returns
+    -------
+    (h,) float
+        0 to 1.
+    """
+    enough = min(ENOUGH, most)
+    return np.clip(chained / enough, 0.0, 1.0) if enough > 0.0 else np.ones(len(chained))
 
 
 def evidence(
@@ -218,10 +239,9 @@ def evidence(
     at = fit.counterpart[fit.counterpart >= 0]
     mirrored = fit.function.mirrored
     worth, most = chained
-    enough = min(ENOUGH, most)
     factors = {
         "chained": min(1.0, (max(worth, 0.0) + 1.0) / (AS_GOOD * (most + 1.0))),
-        "corners": float(np.exp(min(1.0, worth / enough) - 1.0)) if enough > 0.0 else 1.0,
+        "corners": float(np.exp(corners_met(np.array([worth]), most)[0] - 1.0)),
         "aligned": float(np.exp(min(1.0, aligned / (AS_GOOD * GAIN)) - 1.0)),
         "unmirrored": float(np.exp(-1.0)) if mirrored else 1.0,
     }

@@ -6,6 +6,7 @@ query's lines look for their counterparts along the lines near their images (Vit
 neighbours), the smoothest function through the counterparts is one linear solve, and the two alternate.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,7 +25,7 @@ BAND = 7
 #: Stiffness of the functions, round by round: (strain, bend) weights beside a mean squared distance of 1.
 ROUNDS = ((0.3, 0.3), (0.1, 0.2), (0.03, 0.1), (0.02, 0.1), (0.01, 0.1), (0.01, 0.1))
 #: After so many rounds only so many candidates of each place, and so many in all, are fitted on: those with most
-#: counterparts.
+#: counterparts and evidence.
 FIRST_ROUNDS, FINALISTS, MOST_FINALISTS = 2, 4, 24
 #: Candidates whose images' centres are nearer than this, in extents of the images, are of one place.
 PLACE = 0.35
@@ -183,7 +184,13 @@ class Fitter:
         right = rows.conj().T[None] @ (share * image)[:, :, None]
         return np.linalg.solve(left, right)[:, :, 0]
 
-    def fit(self, unknowns: Complex, mirrored: NDArray[np.bool_], finalists: int = FINALISTS) -> list[Fit]:
+    def fit(
+        self,
+        unknowns: Complex,
+        mirrored: NDArray[np.bool_],
+        finalists: int,
+        agreeing: Callable[[Complex, NDArray[np.bool_]], Floats],
+    ) -> list[Fit]:
         """Refine candidates, and give up those that find few lines.
 
         Parameters
@@ -193,11 +200,13 @@ class Fitter:
         mirrored : (h,) bool
         finalists : int
             Candidates of each place that are fitted to the end.
+        agreeing : callable
+            What else speaks for functions, (h,) from 0 to 1: those that are stretched over a gap find the most lines.
         """
         for number, stiffness in enumerate(ROUNDS):
             _, image, weight, _, _ = self.counterparts(unknowns, mirrored, FITTING)
             if number == FIRST_ROUNDS:
-                order = np.argsort(-weight.mean(1), kind="stable")
+                order = np.argsort(-weight.mean(1) * (0.5 + 0.5 * agreeing(unknowns, mirrored)), kind="stable")
                 best = order[self.apart(unknowns[order], mirrored[order], finalists, MOST_FINALISTS)]
                 unknowns, mirrored, image, weight = unknowns[best], mirrored[best], image[best], weight[best]
             unknowns = self.solve(self.rows, image, weight + 1e-6, stiffness)

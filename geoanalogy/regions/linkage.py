@@ -16,10 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array, csr_array
-from scipy.sparse.csgraph import connected_components
+from scipy.sparse import coo_array, csr_array, triu
 
-from ..geometry.contours import Floats
+from ..geometry.contours import Indices
 from ..progress import Stepper
 from .refinement import ROTATION, SCALE, Refined
 from .transformation import Nodes
@@ -31,7 +30,7 @@ LEAST_SIMILARITY = np.exp(-4.5)
 #: Merging stops at this share of the largest linkage weight (section 3.5).
 STOP = 0.01
 #: Pairs of sets whose linkage is computed at once.
-MOST_AT_ONCE = 1_000_000
+MOST_AT_ONCE = 50_000
 
 
 @dataclass(frozen=True)
@@ -127,102 +126,91 @@ def clusters(nodes: Nodes, refined: Refined, alike: csr_array, least: int) -> St
 
     Notes
     -----
-    Sums of l_ij n_ij are kept per pair of clusters; the sums of n_ij follow from the numbers of members per query
-    point, so that pairs without similarity cost nothing. Parts of the graph that no similarity joins are clustered
-    one by one: the work grows with the largest of them, not with the drawing.
+    Average linkage is reducible: merging two sets brings neither nearer to a third than the nearer of them was. So all
+    pairs of sets that are each other's best may be merged at once, in any order, and the sets are the same; the text
+    merges one pair at a time. Sums of l_ij n_ij are kept per pair of sets, sums of n_ij follow from the numbers of
+    members per query point, and pairs without similarity cost nothing.
     """
-    m = len(nodes.at)
-    near = np.zeros((m, m))
+    m, n = len(nodes.at), len(refined)
+    near = np.zeros((m, m), np.float32)
     near[nodes.first, nodes.second] = nodes.weight
     strength = np.sqrt(refined.magnitude)
-    links = alike.tocoo()
-    value = (
-        links.data * strength[links.row] * strength[links.col] * near[refined.node[links.row], refined.node[links.col]]
-    )
-    weight = coo_array((value, (links.row, links.col)), shape=alike.shape).tocsr()
-    largest = float((links.data * strength[links.row] * strength[links.col]).max(initial=0.0))
-    number, part = connected_components(weight, directed=False)
-    groups = np.split(np.argsort(part, kind="stable"), np.cumsum(np.bincount(part, minlength=number))[:-1])
+    links = coo_array(triu(alike, 1))
+    first, second = links.row.astype(np.intp), links.col.astype(np.intp)
+    value = links.data * strength[first] * strength[second]
+    stop = STOP * float(value.max(initial=0.0))
+    total = (value * near[refined.node[first], refined.node[second]]).astype(np.float32)
+    owner, name = np.arange(n), np.arange(n)  # the set of each correspondence; the names of the sets that have pairs
+    count = np.zeros((n, m), np.float32)
+    count[name, refined.node] = 1.0
+    weight = _linkage(first, second, total, count, near)
+    while len(first):
+        good = weight > stop
+        first, second, total, weight = first[good], second[good], total[good], weight[good]
+        merged = _mutual(first, second, weight, len(name))
+        if not len(merged):
+            break
+        into, renamed = np.arange(len(name)), np.arange(n)
+        into[second[merged]] = first[merged]
+        renamed[name[second[merged]]] = name[first[merged]]
+        owner = renamed[owner]
+        count[first[merged]] += count[second[merged]]
+        changed = np.zeros(len(name), bool)
+        changed[first[merged]] = changed[second[merged]] = True
+        same = ~(changed[first] | changed[second])
+        i, j, between = _joined(into[first[~same]], into[second[~same]], total[~same], len(name))
+        weight = np.concatenate([weight[same], _linkage(i, j, between, count, near)])
+        total = np.concatenate([total[same], between])
+        left, pair = np.unique(np.concatenate([first[same], i, second[same], j]), return_inverse=True)
+        first, second = np.split(pair.ravel(), 2)
+        name, count = name[left], count[left]
+        yield 1.0 - len(name) / n, "linking correspondences"
     found: list[Cluster] = []
-    done = 0
-    for members in groups:
-        done += len(members)
-        if len(np.unique(refined.node[members])) < least:
-            continue
-        local = weight[members][:, members].toarray()
-        sets = yield from _merge(local, refined.node[members], near, STOP * largest, done / max(len(refined), 1))
-        for s in sets:
-            if len(s) < least or len(np.unique(refined.node[members[s]])) < least:
-                continue
-            cluster = _cluster(members[s], nodes, refined, alike)
-            found.append(cluster)
+    for members in np.split(np.argsort(owner, kind="stable"), np.cumsum(np.bincount(owner, minlength=n))[:-1]):
+        if len(members) >= least and len(np.unique(refined.node[members])) >= least:
+            found.append(_cluster(members, nodes, refined, alike))
     found.sort(key=lambda c: -c.tps)
     return found
 
 
-def _merge(
-    weight: Floats, node: NDArray[np.intp], near: Floats, stop: float, fraction: float
-) -> Stepper[list[NDArray[np.intp]]]:
-    """Average linkage of one part of the graph: the members of each final set."""
-    n, m = len(node), len(near)
-    count = np.zeros((n, m), np.float32)
-    count[np.arange(n), node] = 1.0
-    reach = count @ near.astype(np.float32)
-    has = (count > 0).astype(np.float32)
-    total = weight.astype(np.float32)
-    np.fill_diagonal(total, 0.0)
-    owner = np.arange(n)
-    alive = np.ones(n, bool)
+def _linkage(
+    first: Indices, second: Indices, total: NDArray[np.float32], count: NDArray[np.float32], near: NDArray[np.float32]
+) -> NDArray[np.float32]:
+    """Linkage weights (eq. 3.10) of pairs of sets, (k,)."""
+    reach, has = count @ near, (count > 0.0).astype(np.float32)
+    size = has.sum(1)
+    out = np.empty(len(first), np.float32)
+    for k in range(0, len(first), MOST_AT_ONCE):
+        i, j = first[k : k + MOST_AT_ONCE], second[k : k + MOST_AT_ONCE]
+        norm = np.einsum("ij,ij->i", reach[i], count[j])
+        both = np.einsum("ij,ij->i", has[i], has[j])
+        either = size[i] + size[j] - both
+        out[k : k + MOST_AT_ONCE] = total[k : k + MOST_AT_ONCE] / np.maximum(norm, 1e-9) * ((either - both) / either)
+    return out
 
-    def linkage(some: NDArray[np.intp], others: NDArray[np.intp]) -> NDArray[np.float32]:
-        """Linkage weights (eq. 3.10) of some sets with others, (k, l)."""
-        norm = np.maximum(reach[some] @ count[others].T, 1e-9)
-        both = has[some] @ has[others].T
-        either = has[some].sum(1)[:, None] + has[others].sum(1) - both
-        between = total[some[0], others][None] if len(some) == 1 else total[some][:, others]
-        return np.asarray(between / norm * ((either - both) / either), dtype=np.float32)
 
-    best, partner = np.zeros(n, np.float32), np.zeros(n, int)
+def _mutual(first: Indices, second: Indices, weight: NDArray[np.float32], n: int) -> Indices:
+    """Numbers of the pairs that are the best of both their sets; of equal ones the earliest counts as best."""
+    best = np.zeros(n, np.float32)
+    np.maximum.at(best, first, weight)
+    np.maximum.at(best, second, weight)
+    some = np.flatnonzero((weight == best[first]) & (weight == best[second]))
+    some = some[np.lexsort((second[some], first[some]))]
+    earliest = np.full(n, len(some))
+    rank = np.arange(len(some))
+    np.minimum.at(earliest, first[some], rank)
+    np.minimum.at(earliest, second[some], rank)
+    return some[(earliest[first[some]] == rank) & (earliest[second[some]] == rank)]
 
-    def anew(some: NDArray[np.intp]) -> None:
-        """Find the best partner of some sets."""
-        there = np.flatnonzero(alive)
-        for part in np.array_split(some, 1 + len(some) * len(there) // MOST_AT_ONCE):
-            value = linkage(part, there)
-            which = value.argmax(1)
-            best[part], partner[part] = value[np.arange(len(part)), which], there[which]
 
-    anew(np.arange(n))
-    merged = 0
-    while True:
-        i = int(best.argmax())
-        if best[i] <= stop:
-            break
-        j = int(partner[i])
-        total[i] += total[j]
-        total[:, i] = total[i]
-        total[j] = total[:, j] = 0.0
-        total[i, i] = 0.0
-        count[i] += count[j]
-        reach[i] += reach[j]
-        has[i] = np.maximum(has[i], has[j])
-        owner[owner == j] = i
-        alive[j], best[j] = False, 0.0
-        best[i] = 0.0
-        others = np.flatnonzero(total[i])
-        if len(others):
-            value = linkage(np.array([i]), others)[0]
-            k = int(value.argmax())
-            best[i], partner[i] = value[k], others[k]
-            better = value > best[others]
-            best[others[better]], partner[others[better]] = value[better], i
-            stale = others[~better & ((partner[others] == i) | (partner[others] == j))]
-            if len(stale):
-                anew(stale)
-        merged += 1
-        if merged % 50 == 0:
-            yield fraction, "linking correspondences"
-    return [np.flatnonzero(owner == i) for i in np.flatnonzero(alive)]
+def _joined(
+    first: Indices, second: Indices, total: NDArray[np.float32], n: int
+) -> tuple[Indices, Indices, NDArray[np.float32]]:
+    """Pairs of sets after some were merged: equal pairs are added up, pairs within one set dropped."""
+    apart = first != second
+    low, high = np.minimum(first, second)[apart], np.maximum(first, second)[apart]
+    key, back = np.unique(low * n + high, return_inverse=True)
+    return key // n, key % n, np.bincount(back, total[apart], len(key)).astype(np.float32)
 
 
 def _cluster(members: NDArray[np.intp], nodes: Nodes, refined: Refined, alike: csr_array) -> Cluster:

@@ -6,11 +6,11 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..geometry.contours import Floats
+from ..geometry.contours import Complex, Floats
 from ..geometry.drawing import Drawing
 from ..progress import Progress, Stepper, run, within
 from .candidates import candidates
-from .evidence import Evidence, agreement, evidence, marked_evidence, node_support, support
+from .evidence import Evidence, agreement, corners_met, evidence, marked_evidence, node_support, support
 from .fitting import FINALISTS, Fit, Fitter
 from .marks import laid, of_marks
 from .options import RegionOptions
@@ -203,10 +203,22 @@ def matching(
         yield 0.8, "fitting to the lines"
         if found.starts:
             finalists = BRANCH_FINALISTS if options.branches else FINALISTS
-            unknowns = np.array([u for u, _ in found.starts])
-            fitted = fitter.fit(unknowns, np.array([flip for _, flip in found.starts]), finalists)
-            chained, along = agreement(fitter, fitted, found.chains, found.alignments)
             most = float(found.chains.most.sum(1).mean())
+
+            def agreeing(unknowns: Complex, mirrored: NDArray[np.bool_]) -> tuple[Floats, Floats]:
+                return agreement(fitter, unknowns, mirrored, found.chains, found.alignments)
+
+            fitted = fitter.fit(
+                np.array([u for u, _ in found.starts]),
+                np.array([flip for _, flip in found.starts]),
+                finalists,
+                lambda unknowns, mirrored: corners_met(agreeing(unknowns, mirrored)[0], most),
+            )
+            functions = [f.function for f in fitted]
+            chained, along = agreeing(
+                np.array([np.concatenate([f.position, f.factor]) for f in functions]),
+                np.array([f.mirrored for f in functions]),
+            )
             fits = [
                 (fit, evidence(fitter, region, fit, (float(c), most), float(a), options.joint_tolerance))
                 for fit, c, a in zip(fitted, chained, along, strict=True)

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
-from ..geometry.contours import Complex, Floats
+from ..geometry.contours import Complex, Floats, Indices
 from ..progress import Stepper
 from .correspondences import Correspondences
 
@@ -16,6 +16,8 @@ from .correspondences import Correspondences
 TRANSLATION, SCALE, ROTATION = 0.1, np.log(1.25), np.pi / 4
 #: Noisy correspondences that a query point listens to at most, heaviest first.
 MOST_NEAR = 250
+#: Pairs of query points and noisy correspondences that are weighed at once.
+MOST_AT_ONCE = 400_000
 #: Modes of a query point at most, and their least magnitude beside the greatest of all.
 MOST_MODES, LEAST_MAGNITUDE = 40, 0.01
 #: Distances in the transformation space between the points from which mean shift starts, and below which two modes
@@ -89,25 +91,24 @@ def refine(points: Complex, noisy: Correspondences, size: float, radius: float) 
     back = back.ravel()
     if len(noisy):
         pairs = np.stack([places.real, places.imag], 1)
-        count = np.bincount(back)
-        density = np.exp(-0.5 * (cdist(pairs, pairs) / radius) ** 2) @ count
-        weight_all = noisy.confidence / density[back]
+        density = np.exp(-0.5 * (cdist(pairs, pairs) / radius) ** 2) @ np.bincount(back)
+        share = noisy.confidence / density[back]
     for flip in (False, True):
         own = np.flatnonzero(noisy.mirrored == flip)
         if not len(own):
             continue
-        c = noisy.chosen(own)
-        for k, q in enumerate(points):
-            weight = np.exp(-0.5 * (np.abs(c.source - q) / radius) ** 2) * weight_all[own]
-            heavy = np.flatnonzero(weight >= 0.01 * weight.max())
-            if len(heavy) > MOST_NEAR:
-                heavy = heavy[np.argsort(-weight[heavy], kind="stable")[:MOST_NEAR]]
-            image, factor, magnitude = modes(
-                c.image[heavy] + c.factor[heavy] * (q - c.source[heavy]), c.factor[heavy], weight[heavy], size
+        c, rows = noisy.chosen(own), np.arange(len(points))
+        for some in np.array_split(rows, 1 + len(rows) * len(own) // MOST_AT_ONCE):
+            q = points[some][:, None]
+            weight = np.exp(-0.5 * (np.abs(places - q) / radius) ** 2)[:, back[own]] * share[own]
+            near = np.argsort(-weight, axis=1, kind="stable")[:, :MOST_NEAR]
+            weight = np.take_along_axis(weight, near, 1)
+            weight[weight < 0.01 * weight[:, :1]] = 0.0
+            node, image, factor, magnitude = modes(
+                c.image[near] + c.factor[near] * (q - c.source[near]), c.factor[near], weight, size
             )
-            n = len(image)
-            parts.append((np.full(n, k), image, factor, np.full(n, flip), magnitude))
-            yield (k + 1) / len(points) * 0.5 + 0.5 * flip, "refining correspondences"
+            parts.append((some[node], image, factor, np.full(len(node), flip), magnitude))
+            yield (some[-1] + 1) / len(points) * 0.5 + 0.5 * flip, "refining correspondences"
     if not parts:
         none = np.zeros(0, complex)
         return Refined(np.zeros(0, np.intp), none, none, np.zeros(0, bool), np.zeros(0))
@@ -117,55 +118,62 @@ def refine(points: Complex, noisy: Correspondences, size: float, radius: float) 
     return Refined(node[good], image[good], factor[good], mirrored[good], magnitude[good])
 
 
-def modes(image: Complex, factor: Complex, weight: Floats, size: float) -> tuple[Complex, Complex, Floats]:
-    """Dominant modes of weighted similarities by mean shift with a kernel of radius one.
+def modes(image: Complex, factor: Complex, weight: Floats, size: float) -> tuple[Indices, Complex, Complex, Floats]:
+    """Dominant modes of weighted similarities by mean shift with a kernel of radius one, for several query points.
 
     Parameters
     ----------
-    image : (n,) complex
-        Where each similarity takes the query point.
-    factor : (n,) complex
-    weight : (n,) float
+    image : (m, n) complex
+        Where each similarity takes its query point.
+    factor : (m, n) complex
+    weight : (m, n) float
+        Descending along each row; 0 for those that do not count.
     size : float
         Extent of the query.
 
     Returns
     -------
+    row : (k,) int
+        Query point of each mode.
     image, factor : (k,) complex
     magnitude : (k,) float
-        Density at the modes, descending.
+        Density at the modes, descending for each query point.
 
     Notes
     -----
     Mean shift starts from the heaviest correspondences that are farther than SEED_GAP from each other; from the ones
     between them it would end in the same modes.
     """
-    space = np.stack([image.real, image.imag, np.log(np.abs(factor)) / SCALE, *_direction(factor)]).astype(np.float32)
-    unit = (1.0 / (TRANSLATION * size * np.abs(factor))).astype(np.float32)
-    order = np.argsort(-weight, kind="stable")
-    apart = _squares(space, unit, space) > SEED_GAP**2
-    alive = np.ones(len(order), bool)
-    seeds: list[int] = []
-    for i in order:
-        if alive[i]:
-            seeds.append(int(i))
-            alive &= apart[i]
-            if len(seeds) == MOST_MODES:
-                break
-    at: NDArray = space[:, seeds]
+    space = np.stack([image.real, image.imag, np.log(np.abs(factor)) / SCALE, *_direction(factor)], 1)
+    space, weight = space.astype(np.float32), weight.astype(np.float32)
+    rows = np.arange(len(space))
+    alive = weight > 0.0
+    seeds: list[Indices] = []
+    used: list[NDArray[np.bool_]] = []
+    while len(seeds) < MOST_MODES and alive.any():
+        first = alive.argmax(1)  # the heaviest that is left
+        seeds.append(first)
+        used.append(alive[rows, first])
+        one = space[rows, :, first][:, :, None]
+        alive &= _squares(one, _unit(one, size), space)[:, 0] > SEED_GAP**2
+    some = np.stack(seeds, 1)
+    at = np.take_along_axis(space, some[:, None], 2)
     for _ in range(SHIFTS):
-        pull = np.exp(-0.5 * _squares(at, np.exp(-at[2] * SCALE) / (TRANSLATION * size), space)) * weight
-        at = (pull @ space.T / pull.sum(1)[:, None]).T
-        at[3:] /= np.hypot(at[3], at[4]) * ROTATION
-    unit = np.exp(-at[2] * SCALE) / (TRANSLATION * size)
-    magnitude = np.exp(-0.5 * _squares(at, unit, space)) @ weight
+        pull = np.exp(-0.5 * _squares(at, _unit(at, size), space)) * weight[:, None]
+        at = (pull @ space.transpose(0, 2, 1) / pull.sum(2, keepdims=True)).transpose(0, 2, 1)
+        at[:, 3:] /= np.hypot(at[:, 3], at[:, 4])[:, None] * np.float32(ROTATION)
+    unit = _unit(at, size)
+    magnitude = (np.exp(-0.5 * _squares(at, unit, space)) @ weight[:, :, None])[:, :, 0]
+    magnitude[~np.stack(used, 1)] = -1.0
     close = _squares(at, unit, at) < MERGED_GAP**2
-    kept: list[int] = []
-    for i in np.argsort(-magnitude, kind="stable"):
-        if not close[i, kept].any():
-            kept.append(int(i))
-    at = at[:, kept]
-    return at[0] + 1j * at[1], np.exp(at[2] * SCALE + 1j * np.arctan2(at[4], at[3])), magnitude[kept]
+    order = np.argsort(-magnitude, axis=1, kind="stable")
+    kept = np.zeros(magnitude.shape, bool)
+    for i in order.T:
+        kept[rows, i] = (magnitude[rows, i] > 0.0) & ~(close[rows, i] & kept).any(1)
+    row, rank = np.nonzero(np.take_along_axis(kept, order, 1))
+    which = order[row, rank]
+    x, y, scale, cosine, sine = at[row, :, which].T.astype(float)
+    return row, x + 1j * y, np.exp(scale * SCALE + 1j * np.arctan2(sine, cosine)), magnitude[row, which].astype(float)
 
 
 def _direction(factor: Complex) -> tuple[Floats, Floats]:
@@ -174,12 +182,20 @@ def _direction(factor: Complex) -> tuple[Floats, Floats]:
     return way.real, way.imag
 
 
-def _squares(at: NDArray, unit: NDArray, space: NDArray) -> NDArray:
-    """Squared distances in the normalised transformation space from (5, k) points to (5, n) ones, (k, n).
+def _unit(at: NDArray[np.float32], size: float) -> NDArray[np.float32]:
+    """Inverse of a unit of translation at the scale of each point, (m, k)."""
+    scale = np.exp(-at[:, 2] * np.float32(SCALE))
+    return np.asarray(scale / np.float32(TRANSLATION * size), dtype=np.float32)
 
-    A unit of translation is one at the scale of the first point, `unit` (k,) its inverse.
-    """
-    move = (at[0][:, None] - space[0]) ** 2 + (at[1][:, None] - space[1]) ** 2
-    rest = at[2:].T @ space[2:]
-    own, other = (at[2:] ** 2).sum(0), (space[2:] ** 2).sum(0)
-    return move * (unit**2)[:, None] + np.maximum(own[:, None] + other - 2.0 * rest, 0.0)
+
+def _squares(at: NDArray[np.float32], unit: NDArray[np.float32], space: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Squared distances in the normalised transformation space from (m, 5, k) points to (m, 5, n) ones, (m, k, n)."""
+    move: NDArray[np.float32] = np.square(at[:, 0, :, None] - space[:, 0, None])
+    move += np.square(at[:, 1, :, None] - space[:, 1, None])
+    move *= np.square(unit)[:, :, None]
+    rest = at[:, 2:].transpose(0, 2, 1) @ space[:, 2:]
+    rest *= np.float32(-2.0)
+    rest += (at[:, 2:] ** 2).sum(1)[:, :, None]
+    rest += (space[:, 2:] ** 2).sum(1)[:, None]
+    move += np.maximum(rest, np.float32(0.0), out=rest)
+    return move

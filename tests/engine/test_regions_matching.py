@@ -129,7 +129,7 @@ def test_branches_may_share_lines():
     trunk = np.stack([np.linspace(0.0, 1.0, 40), 0.1 * np.sin(np.linspace(0.0, 9.0, 40))], 1)
     twig = np.array([(0.0, 0.0), (0.2, 0.12), (0.25, 0.3), (0.42, 0.36), (0.5, 0.55), (0.72, 0.6)])
     path = np.vstack([trunk, trunk[-1] + twig])
-    fork = [moved(p, shift=(4.0, 0.0)) for p in (trunk, trunk[-1] + twig, trunk[-1] + moved(twig, angle=-0.7))]
+    fork = [moved(p, shift=(4.0, 0.0)) for p in (path, trunk[-1] + moved(twig, angle=-0.9))]
     drawing = ga.Drawing([path, *fork])
     ring = box([path])
     alone = ga.match_regions(drawing, ring, ga.RegionOptions(threshold=0.0, contrast=0.0))
