@@ -14,6 +14,7 @@ from ..geometry.rectangle import Rectangle
 from ..poses.pose import Pose
 from ..progress import run
 from . import names
+from .holders import ensure_holder
 from .reading.footprints import frame_of
 from .reading.planes import Plane
 from .reading.sites import NEARER, Site, sites_of
@@ -230,7 +231,7 @@ def add_rectangles(
         # A corner that was set on the very edge of a face may lie a rounding beyond it.
         face = face_at(sites, start, np.add(start, end) / 2, end)
         wanted.append((rectangle_between(face, start, end), face.plane, target))
-    holder = _collection(context.scene)
+    holder = ensure_holder(context.scene.collection, EXAMPLES)
     for item in context.selected_objects:
         item.select_set(False)
     made = []
@@ -267,14 +268,6 @@ def _sheet(rectangle: Rectangle) -> bpy.types.Mesh:
     mesh = bpy.data.meshes.new("rectangle")
     mesh.from_pydata([(-x, -y, 0.0), (x, -y, 0.0), (x, y, 0.0), (-x, y, 0.0)], [], [(0, 1, 2, 3)])
     return mesh
-
-
-def _collection(scene: bpy.types.Scene) -> bpy.types.Collection:
-    holder = next((c for c in scene.collection.children if c.name.split(".")[0] == EXAMPLES), None)
-    if holder is None:
-        holder = bpy.data.collections.new(EXAMPLES)
-        scene.collection.children.link(holder)
-    return holder
 
 
 @dataclass

@@ -191,3 +191,17 @@ def test_a_propagation_that_is_cancelled_halfway_changes_nothing():
         next(steps)
     steps.close()
     assert everything() == before
+
+
+def test_every_scene_has_collections_of_its_own_whatever_blender_calls_them():
+    holders = bridge("holders")
+    first, second = bpy.context.scene, bpy.data.scenes.new("Other")
+    one, other = (holders.ensure_holder(scene.collection, "plot") for scene in (first, second))
+    assert (one.name, other.name) == ("plot", "plot.001")
+    assert holders.ensure_holder(second.collection, "plot") == other
+    holders.ensure_holder(second.collection, "plot.old")
+    assert holders.ensure_holder(first.collection, "plot") == one and len(second.collection.children) == 2
+    told = holders.ensure_holder_with(second.collection, "ga_node", "bed", "Beds")
+    told.name = "Renamed"
+    assert holders.ensure_holder_with(second.collection, "ga_node", "bed") == told
+    assert holders.holder_with(first.collection, "ga_node", "bed") is None

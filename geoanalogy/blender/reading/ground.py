@@ -17,6 +17,7 @@ from ...geometry.memory import Memory
 from ...geometry.polygon import Polygon, signed_area
 from ...geometry.scene import Scene
 from .. import names
+from ..holders import holder_with
 from .footprints import footprint_ring_of
 from .planes import SAME_PLANE_ASIDE, Plane, best_plane, extent
 from .shapes import KINDS, Ring, has_labelled_faces, labelled_faces, rings_of
@@ -87,7 +88,7 @@ def results_collection(scene: bpy.types.Scene) -> bpy.types.Collection | None:
     bpy.types.Collection or None
         None before the first operation.
     """
-    return next((c for c in scene.collection.children if c.get(names.NODE) == names.COLLECTION), None)
+    return holder_with(scene.collection, names.NODE, names.COLLECTION)
 
 
 def labels_of(scene: bpy.types.Scene) -> dict[str, str]:

@@ -9,12 +9,16 @@ from numpy.typing import NDArray
 
 from ...errors import InputError
 from .. import names
+from ..holders import ensure_holder
 from ..reading.planes import Plane
 
 Array = NDArray[np.float64]
 
 #: About how many vertices a patch has inside.
 PATCH_POINTS = 500
+
+#: Name of the collection that patches are put into.
+PAINTED = "Painted"
 
 #: Name of the UV layer of patches.
 UV = "UVMap"
@@ -62,7 +66,7 @@ def add_patch(
     frame[:3, 3] = plane.to_world([(*middle, height)])[0]
     item.matrix_world = Matrix(frame.tolist())
     item[names.CONTENT] = True
-    contents_collection(scene).objects.link(item)
+    ensure_holder(scene.collection, PAINTED).objects.link(item)
     return item
 
 
@@ -144,21 +148,3 @@ def image_material(image: bpy.types.Image) -> bpy.types.Material:
     ):
         tree.links.new(source, target)
     return made
-
-
-def contents_collection(scene: bpy.types.Scene) -> bpy.types.Collection:
-    """The collection that patches are put into, made where there is none.
-
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-
-    Returns
-    -------
-    bpy.types.Collection
-    """
-    holder = next((c for c in scene.collection.children if c.name.split(".")[0] == "Painted"), None)
-    if holder is None:
-        holder = bpy.data.collections.new("Painted")
-        scene.collection.children.link(holder)
-    return holder

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...errors import InputError
 from .. import names
+from ..holders import ensure_holder
 from ..reading.planes import Plane, extent
 from .drawings import LINES, line_curve, lines_of, read_drawn_lines
 
@@ -125,7 +126,7 @@ def add_query(
     frame = drawn.plane.matrix.copy()
     frame[:3, 3] = drawn.plane.to_world([(*middle, 0.0)])[0]
     item.matrix_world = Matrix(frame.tolist())
-    _collection(context.scene).objects.link(item)
+    ensure_holder(context.scene.collection, QUERIES).objects.link(item)
     choose_query(context, item, closed)
     for other in context.selected_objects:
         other.select_set(False)
@@ -203,11 +204,3 @@ def brushed(strokes: Sequence[Array], radius: float) -> Array:
     swept = shapely.union_all([path.buffer(radius, quad_segs=BRUSH_CORNERS) for path in paths])
     outline = shapely.get_exterior_ring(max(shapely.get_parts(swept), key=lambda part: part.area))
     return shapely.get_coordinates(outline.simplify(0.05 * radius))[:-1]
-
-
-def _collection(scene: bpy.types.Scene) -> bpy.types.Collection:
-    holder = next((c for c in scene.collection.children if c.name.split(".")[0] == QUERIES), None)
-    if holder is None:
-        holder = bpy.data.collections.new(QUERIES)
-        scene.collection.children.link(holder)
-    return holder

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ...operations.decisions import Decisions
 from ...operations.region_transfer import RegionTransfer
 from .. import names
+from ..holders import ensure_holder_with
 from ..reading.planes import Plane
 from ..tree.store import engine_node
 from ..writing.instances import collection_of, ensure_results_collection, results_in
@@ -263,11 +264,7 @@ def show_targets(scene: bpy.types.Scene, node: bpy.types.Node) -> int:
     targets, plane, size = _stored(node)
     shown = [] if node.mute else passing(engine_node(node).operation, targets)
     rank = {target.key: i for i, target in enumerate(targets)}
-    holder = collection_of(scene, node.name)
-    if holder is None:
-        holder = bpy.data.collections.new(node.name)
-        holder[names.NODE] = node.name
-        ensure_results_collection(scene).children.link(holder)
+    holder = ensure_holder_with(ensure_results_collection(scene), names.NODE, node.name)
     wanted = {target.key for target in shown}
     gone = [item for item in results_in(holder) if item[names.KEY] not in wanted]
     _delete(gone)

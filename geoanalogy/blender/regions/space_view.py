@@ -20,6 +20,7 @@ from ...progress import Stepper
 from ...regions.matching import Matches
 from ...regions.view import TransformationSpace, transformation_space
 from .. import names
+from ..holders import ensure_holder_with, holder_with
 from ..tree.store import engine_node
 from .drawings import DrawnLines, line_curve, read_drawn_lines
 from .finding import find_steps, found_already
@@ -133,8 +134,8 @@ def space_collection(scene: bpy.types.Scene, node: str) -> bpy.types.Collection 
     -------
     bpy.types.Collection or None
     """
-    holder = next((c for c in scene.collection.children if c.get(names.SPACE) == COLLECTION), None)
-    return None if holder is None else next((c for c in holder.children if c.get(names.SPACE) == node), None)
+    outer = holder_with(scene.collection, names.SPACE, COLLECTION)
+    return None if outer is None else holder_with(outer, names.SPACE, node)
 
 
 def _show(scene: bpy.types.Scene, node: bpy.types.Node, found: Found, drawn: DrawnLines) -> TransformationSpace:
@@ -262,12 +263,5 @@ def _emptied(scene: bpy.types.Scene, node: str) -> bpy.types.Collection:
         bpy.data.batch_remove(former)
         bpy.data.batch_remove([one for one in data if one.users == 0])
         return holder
-    outer = next((c for c in scene.collection.children if c.get(names.SPACE) == COLLECTION), None)
-    if outer is None:
-        outer = bpy.data.collections.new(COLLECTION)
-        outer[names.SPACE] = COLLECTION
-        scene.collection.children.link(outer)
-    holder = bpy.data.collections.new(f"{node} transformations")
-    holder[names.SPACE] = node
-    outer.children.link(holder)
-    return holder
+    outer = ensure_holder_with(scene.collection, names.SPACE, COLLECTION)
+    return ensure_holder_with(outer, names.SPACE, node, f"{node} transformations")

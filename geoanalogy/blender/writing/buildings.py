@@ -18,8 +18,9 @@ from ...geometry.mesh import Mesh, joined
 from ...geometry.scene import Scene
 from ...operations.applied import Applied
 from .. import names
+from ..holders import ensure_holder
 from ..names import UNLABELLED
-from .library_objects import holder, put
+from .library_objects import put
 from .outdoors import furnish
 from .picture import draw_picture
 from .shading import FINISHES, VARIATION, material
@@ -258,7 +259,7 @@ def _buildings(
     for label, those in by_label.items():
         mass = bpy.data.objects.new(label, _mass(label, masses, those))
         mass[names.LABEL] = label
-        holder(scene, label).objects.link(mass)
+        ensure_holder(scene.collection, label).objects.link(mass)
     extent, problems, standing = put(scene, product.placed, library, ground)
     return Built(len(by_label), len(product.placed), problems), np.concatenate([_corners(masses), extent]), standing
 
@@ -288,7 +289,8 @@ def _surroundings(scene: bpy.types.Scene, ground: Scene, standing: frozenset[str
     """The parcels but those that something stands for, and the points that they lie within."""
     parcels = _parcels(ground, standing)
     if len(parcels.faces):
-        holder(scene, SURROUNDINGS).objects.link(bpy.data.objects.new("Parcels", mesh_data("Parcels", parcels)))
+        made = bpy.data.objects.new("Parcels", mesh_data("Parcels", parcels))
+        ensure_holder(scene.collection, SURROUNDINGS).objects.link(made)
     return parcels.vertices
 
 
@@ -298,7 +300,7 @@ def _place_to_look_from(scene: bpy.types.Scene, points: Sequence[Array], ground:
         raise InputError("nothing was built and there are no parcels; check the labels of the parcels")
     # Between the streets of a map grass grows; a plan without any stands on the street itself.
     finish = "verge" if any(p.label in STREETS for p in ground.polygons) else "ground"
-    furnish(scene, holder(scene, SURROUNDINGS), everything, DROP, finish)
+    furnish(scene, ensure_holder(scene.collection, SURROUNDINGS), everything, DROP, finish)
 
 
 def mesh_data(name: str, mesh: Mesh) -> bpy.types.Mesh:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ...geometry.surface import GROUND
 from ...operations.element import Element
 from .. import names
+from ..holders import ensure_holder_with, holder_with
 from ..reading.footprints import frame_of
 from ..reading.ground import results_collection
 from ..reading.planes import Plane
@@ -35,12 +36,7 @@ def ensure_results_collection(scene: bpy.types.Scene) -> bpy.types.Collection:
     -------
     bpy.types.Collection
     """
-    holder = results_collection(scene)
-    if holder is None:
-        holder = bpy.data.collections.new(names.COLLECTION)
-        holder[names.NODE] = names.COLLECTION
-        scene.collection.children.link(holder)
-    return holder
+    return ensure_holder_with(scene.collection, names.NODE, names.COLLECTION)
 
 
 def collection_of(scene: bpy.types.Scene, node: str) -> bpy.types.Collection | None:
@@ -56,8 +52,8 @@ def collection_of(scene: bpy.types.Scene, node: str) -> bpy.types.Collection | N
     -------
     bpy.types.Collection or None
     """
-    holder = results_collection(scene)
-    return None if holder is None else next((c for c in holder.children if c.get(names.NODE) == node), None)
+    outer = results_collection(scene)
+    return None if outer is None else holder_with(outer, names.NODE, node)
 
 
 def results_in(holder: bpy.types.Collection) -> list[bpy.types.Object]:
@@ -104,11 +100,7 @@ def write_results(
         How many objects stand there now.
     """
     outer = ensure_results_collection(scene)
-    holder = collection_of(scene, node)
-    if holder is None:
-        holder = bpy.data.collections.new(node)
-        holder[names.NODE] = node
-        outer.children.link(holder)
+    holder = ensure_holder_with(outer, names.NODE, node)
     by_mesh = {one.mesh: one for one in placed if one.item is not None}
     there = {one.mesh for one in by_mesh.values() if scene.objects.get(one.item.name) == one.item}
     children = _children_of([one.item for one in by_mesh.values()])

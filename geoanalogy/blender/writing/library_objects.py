@@ -11,6 +11,7 @@ from ...batch.product import Placed
 from ...errors import InputError
 from ...geometry.scene import Scene
 from .. import names
+from ..holders import ensure_holder
 from .scattering import scattered
 from .shading import material
 
@@ -130,7 +131,7 @@ def _show(
 ) -> None:
     made = scattered(label if source.name == label else f"{label}: {source.name}", source, positions, turns, scales)
     made[names.LABEL] = label
-    holder(scene, label).objects.link(made)
+    ensure_holder(scene.collection, label).objects.link(made)
 
 
 def _on_the_ground(scene: bpy.types.Scene, ground: Scene, name: str, source: bpy.types.Object) -> Array:
@@ -150,25 +151,6 @@ def _on_the_ground(scene: bpy.types.Scene, ground: Scene, name: str, source: bpy
     return (positions[:, None] + reach).reshape(-1, 3)
 
 
-def holder(scene: bpy.types.Scene, name: str) -> bpy.types.Collection:
-    """The scene's collection of a name, made at its first use.
-
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-    name : str
-
-    Returns
-    -------
-    bpy.types.Collection
-    """
-    existing = scene.collection.children.get(name)
-    if existing is None:
-        existing = bpy.data.collections.new(name)
-        scene.collection.children.link(existing)
-    return existing
-
-
 def shelf(scene: bpy.types.Scene) -> bpy.types.Collection:
     """The collection of library objects, which are shown only where they are put.
 
@@ -180,7 +162,7 @@ def shelf(scene: bpy.types.Scene) -> bpy.types.Collection:
     -------
     bpy.types.Collection
     """
-    made = holder(scene, LIBRARY)
+    made = ensure_holder(scene.collection, LIBRARY)
     for layer in scene.view_layers:
         layer.layer_collection.children[made.name].exclude = True
     return made

@@ -13,6 +13,7 @@ from ...geometry.solid import Solid
 from ...operations.element import Element
 from ...operations.layout import Layout
 from .. import names
+from ..holders import ensure_holder_with
 from ..reading.ground import results_collection
 from ..reading.planes import Plane
 from .buildings import UNLABELLED, mesh_data
@@ -55,7 +56,7 @@ def write_masses(
     shared: dict[Solid, bpy.types.Mesh] = {}
     count = 0
     for label, standing in by_label.items():
-        holder = _holder(outer, label)
+        holder = ensure_holder_with(outer, names.MASS, label)
         made = [_merged(label, standing)] if merged else [_single(e, plane, shared) for e, plane in standing]
         for i, item in enumerate(made, 1):
             item.name = label if merged else f"{label} {i:03d}"
@@ -69,15 +70,6 @@ def _is_shown(element: Element, library: Collection[str]) -> bool:
     if element.absorbed_by or element.solid is not None:
         return not element.absorbed_by
     return element.polygon is not None and not element.example and str(element.mesh) not in library
-
-
-def _holder(outer: bpy.types.Collection, label: str) -> bpy.types.Collection:
-    holder = next((c for c in outer.children if c.get(names.MASS) == label), None)
-    if holder is None:
-        holder = bpy.data.collections.new(label)
-        holder[names.MASS] = label
-        outer.children.link(holder)
-    return holder
 
 
 def _single(element: Element, plane: Plane, shared: dict[Solid, bpy.types.Mesh]) -> bpy.types.Object:
