@@ -3,13 +3,15 @@
 import argparse
 import json
 from collections.abc import Iterator, Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
 from .batch.detail import DETAILS
 from .batch.generation import Choices, Job, generate, merged
-from .batch.manifest import file_of, manifest, write_manifest
+from .batch.manifest import file_of, manifest, manifest_bytes
 from .batch.product import Product
+from .batch.store import ready
 from .batch.tiles import PARCELS_PER_TILE, wanted_labels
 from .errors import InputError
 from .formats import obj
@@ -131,17 +133,16 @@ def apply(arguments: argparse.Namespace, progress: Progress) -> str:
         done = f"{len(job.facts)} of {len(job.tiles)} tiles are finished, in {work}; nothing is written yet"
         return "\n".join([*dict.fromkeys(said), done])
     record = _manifest(arguments, trees, job, problems)
-    if meshes_only:
-        obj.write(_meshes(job), arguments.output)
-    if drawn:
-        wanted = buildings.Results(
-            None if meshes_only else arguments.output, arguments.render, arguments.library, arguments.tiles
-        )
-        properties = {"ga_offset": list(scene.offset), "ga_manifest": json.dumps(record["settings"])}
-        built = buildings.write(scene, _products(job), wanted, properties, progress)
-        said += built.problems
-    if results:
-        write_manifest(record, manifest_path(results[0]))
+    # Where one of the results cannot be written, the manifest still says what the earlier ones are.
+    with ready(manifest_path(results[0]), manifest_bytes(record)) if results else nullcontext():
+        if meshes_only:
+            obj.write(_meshes(job), arguments.output)
+        if drawn:
+            wanted = buildings.Results(
+                None if meshes_only else arguments.output, arguments.render, arguments.library, arguments.tiles
+            )
+            properties = {"ga_offset": list(scene.offset), "ga_manifest": json.dumps(record["settings"])}
+            said += buildings.write(scene, _products(job), wanted, properties, progress).problems
     if arguments.work is None:
         job.store.forget()
     made = _made(record)

@@ -149,8 +149,11 @@ THINNEST_PARCEL = 0.5
 #: hundredth of a degree is a kilometre.
 SMALLEST_MAP = 0.05
 
-#: Vertices that a parcel may have: cadastral ones have tens, and what is drawn finer costs time and adds nothing.
-MOST_VERTICES = 20_000
+#: Vertices that a parcel may have: cadastral ones have tens, and relations between all edges cost their square.
+MOST_VERTICES = 500
+
+#: Distance, in extents of a parcel, that its outline may move where it has more vertices: 3 cm on a plot of a house.
+SIMPLIFIED = 1e-3
 
 #: Distance, in sizes of a polygon, within which an edge lies on one of its former edges after it has been cut back.
 ON_SAME_EDGE = 1e-6

@@ -2,7 +2,7 @@
 
 import importlib
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from typing import Any
 
 from ..errors import InputError
@@ -13,7 +13,7 @@ from .release import digest
 REACHED = 10
 
 
-def build_there(job: str, work: Sequence[Work], address: str) -> Iterator[tuple[str, str, bytes] | None]:
+def build_there(job: str, work: Sequence[Work], address: str) -> Generator[tuple[str, str, bytes] | None, None, None]:
     """Build tiles on a cluster.
 
     A worker that is lost loses its tile to another one: a tile has a name, its content depends on nothing else, and so

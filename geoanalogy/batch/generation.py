@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -197,26 +198,30 @@ class _Runner:
         self.done = 0
 
     def run(self) -> None:
+        try:
+            self._build()
+        except Cancelled:
+            raise self._stopped() from None
+
+    def _build(self) -> None:
         self._report()
         if not self.waiting:
             return
         if self.choices.scheduler:
-            for found in build_there(self.text, self.waiting, self.choices.scheduler):
-                if found is not None:
-                    key, reason, product = found
-                    self._take(key, reason, product)
-                self._report()
+            with closing(build_there(self.text, self.waiting, self.choices.scheduler)) as found:
+                for there in found:
+                    if there is not None:
+                        self._take(*there)
+                    self._report()
         elif self.choices.jobs > 1:
-            for answer in build_here(self.text, self.waiting, self.job.store, self.choices.jobs):
-                if answer is not None:
-                    self._take(*answer)
-                self._report()
+            with closing(build_here(self.text, self.waiting, self.job.store, self.choices.jobs)) as answers:
+                for answer in answers:
+                    if answer is not None:
+                        self._take(*answer)
+                    self._report()
         else:
             for work in self.waiting:
-                try:
-                    built = compute(self.text, work.scene, lambda *_: self._goes_on())
-                except Cancelled:
-                    raise self._stopped() from None
+                built = compute(self.text, work.scene, lambda *_: self._goes_on())
                 self._take(work.key, "", built.to_bytes())
                 self._report()
 
@@ -241,7 +246,7 @@ class _Runner:
 
     def _report(self) -> None:
         if not self._goes_on():
-            raise self._stopped()
+            raise Cancelled
 
     def _state(self) -> tuple[float, str]:
         share = self.done / self.parcels if self.parcels else 1.0
@@ -253,7 +258,8 @@ class _Runner:
         return share, text
 
     def _stopped(self) -> Stopped:
-        finished = len(self.job.facts)
+        # Other processes may have finished more than they have said.
+        finished = sum(self.job.store.path(key).is_file() for key in set(self.job.keys) - set(self.job.failed))
         return Stopped(
             f"stopped; {finished} of {len(self.job.tiles)} tiles are finished and kept in {self.job.store.folder}, the "
             "same command goes on from there"

@@ -8,7 +8,6 @@ from typing import Any
 
 from .product import added
 from .release import digest, version
-from .store import write_whole
 from .tiles import Tile
 
 SCHEMA = "geoanalogy.manifest/1"
@@ -86,17 +85,15 @@ def manifest(
     }
 
 
-def write_manifest(plain: Mapping[str, Any], path: Path) -> None:
-    """Write a manifest; an earlier one stays until the new one is complete.
+def manifest_bytes(plain: Mapping[str, Any]) -> bytes:
+    """A manifest as it is written to a file.
 
     Parameters
     ----------
     plain : mapping
-    path : Path
 
-    Raises
-    ------
-    OSError
-        Where it cannot be written.
+    Returns
+    -------
+    bytes
     """
-    write_whole(path, (json.dumps(plain, indent=1, ensure_ascii=False) + "\n").encode())
+    return (json.dumps(plain, indent=1, ensure_ascii=False) + "\n").encode()

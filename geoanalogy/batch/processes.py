@@ -6,7 +6,7 @@ import queue
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -40,7 +40,9 @@ class Work:
     scene: str
 
 
-def build_here(job: str, work: Sequence[Work], store: Store, count: int) -> Iterator[tuple[str, str] | None]:
+def build_here(
+    job: str, work: Sequence[Work], store: Store, count: int
+) -> Generator[tuple[str, str] | None, None, None]:
     """Build tiles by several processes, which end when the iteration is left.
 
     Parameters
@@ -161,8 +163,8 @@ class _Crew(threading.Thread):
             process.wait()
             return None
         reason, unwritten = json.loads(answer)
-        if unwritten is not None:
-            raise OSError(*unwritten)
+        if unwritten:
+            raise OSError(unwritten)
         return str(reason)
 
 

@@ -1,6 +1,8 @@
 """Finished tiles on disk: what a job that was stopped goes on from."""
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from ..errors import InputError
@@ -81,6 +83,38 @@ class Store:
             self.folder.rmdir()
 
 
+@contextmanager
+def ready(path: Path, content: bytes) -> Iterator[None]:
+    """Write a file that takes its place when all that is done meanwhile has gone well.
+
+    Parameters
+    ----------
+    path : Path
+        One of that name stays as it was until then.
+    content : bytes
+
+    Yields
+    ------
+    None
+        When it is written, beside its name.
+
+    Raises
+    ------
+    OSError
+        Where it cannot be written, naming it.
+    """
+    part = path.with_name(f"{path.name}.{os.getpid()}.part")
+    try:
+        try:
+            part.write_bytes(content)
+        except OSError as error:
+            raise OSError(f"cannot write {path}: {error.strerror or error}") from None
+        yield
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
 def write_whole(path: Path, content: bytes) -> None:
     """Write a file that is there whole or not at all.
 
@@ -93,12 +127,7 @@ def write_whole(path: Path, content: bytes) -> None:
     Raises
     ------
     OSError
-        Where it cannot be written.
+        Where it cannot be written, naming it.
     """
-    part = path.with_name(f"{path.name}.{os.getpid()}.part")
-    try:
-        part.write_bytes(content)
-        part.replace(path)
-    except OSError:
-        part.unlink(missing_ok=True)
-        raise
+    with ready(path, content):
+        pass

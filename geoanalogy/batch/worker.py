@@ -2,8 +2,7 @@
 
 It is started with the engine's folder on its path, whatever package the engine is in where it was started from, and
 needs no Blender. A line is a JSON list: the file of the job, that of the tile's scene, that of the product. So is an
-answer: what the tile failed by, "" where it did not; and where it could not be written, the error's number, text and
-file, else null.
+answer: what the tile failed by, "" where it did not; and why it could not be written, "" where it could.
 """
 
 import json
@@ -26,15 +25,15 @@ def main() -> None:
         job, scene, product = json.loads(line)
         if job not in jobs:
             jobs = {job: Path(job).read_text(encoding="utf-8")}
-        answer: tuple[str, list[int | str | None] | None] = ("", None)
+        reason = unwritten = ""
         try:
             built = compute(jobs[job], Path(scene).read_text(encoding="utf-8")).to_bytes()
             write_whole(Path(product), built)
         except OSError as error:
-            answer = ("", [error.errno, error.strerror, product])
+            unwritten = str(error)
         except Exception as error:
-            answer = (f"{type(error).__name__}: {error}", None)
-        answers.write(json.dumps(answer) + "\n")
+            reason = f"{type(error).__name__}: {error}"
+        answers.write(json.dumps([reason, unwritten]) + "\n")
         answers.flush()
 
 

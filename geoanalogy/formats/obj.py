@@ -3,7 +3,6 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from ..errors import InputError
 from ..geometry.mesh import Mesh
 
 
@@ -18,8 +17,8 @@ def write(objects: Iterable[tuple[str, Mesh]], path: Path) -> None:
 
     Raises
     ------
-    InputError
-        Where the file cannot be written.
+    OSError
+        Where the file cannot be written, naming it.
     """
     part = path.with_name(path.name + ".part")
     vertices = corners = 0
@@ -40,4 +39,5 @@ def write(objects: Iterable[tuple[str, Mesh]], path: Path) -> None:
                 corners += 3 * len(mesh.faces)
         part.replace(path)
     except OSError as error:
-        raise InputError(f"{path} cannot be written ({error.strerror}); choose another place") from None
+        part.unlink(missing_ok=True)
+        raise OSError(f"cannot write {path}: {error.strerror or error}") from None

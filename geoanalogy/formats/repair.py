@@ -13,6 +13,7 @@ from ..tolerances import (
     LEAST_SIMPLE_SHARE,
     MOST_VERTICES,
     ON_SAME_EDGE,
+    SIMPLIFIED,
     SMALLEST_MAP,
     SMALLEST_PARCEL,
     SURFACE_GRID,
@@ -71,17 +72,36 @@ def mended(file: str, outlines: Sequence[Outline], problems: list[str]) -> list[
     found = []
     for outline in outlines:
         count = sum(len(ring) for ring in outline.rings)
-        if count > MOST_VERTICES:
-            problems.append(f"{file}, {outline.where}: it has {count} vertices; simplify its outline")
-            continue
+        if count > MOST_VERTICES and all(np.isfinite(ring).all() for ring in outline.rings):
+            outline = _redrawn(outline, _simplified(outline.rings))
+            left = sum(len(ring) for ring in outline.rings)
+            said = f"{file}, {outline.where}: it has {count} vertices"
+            if left > MOST_VERTICES:
+                problems.append(f"{said}, and {left} when it is simplified; draw its outline with fewer")
+                continue
+            problems.append(f"{said} and has been simplified to {left}")
         rings = _simple(outline.rings)
         if rings is not None:
             problems.append(f"{file}, {outline.where}: its outline touched or crossed itself and has been mended")
-            # Which edge is which is no longer known.
-            properties = {**outline.properties, "segment_labels": None}
-            outline = replace(outline, rings=rings, properties=properties)
+            outline = _redrawn(outline, rings)
         found.append(outline)
     return found
+
+
+def _redrawn(outline: Outline, rings: Sequence[Points]) -> Outline:
+    """The outline with other rings; which edge is which is no longer known."""
+    return replace(outline, rings=rings, properties={**outline.properties, "segment_labels": None})
+
+
+def _simplified(rings: Sequence[Points]) -> list[Points]:
+    """Rings with fewer vertices; holes that are hardly there are gone.
+
+    It takes time in proportion to the vertices, however often the rings cross themselves.
+    """
+    tolerance = SIMPLIFIED * float(np.ptp(rings[0], axis=0).max())
+    lines = [shapely.simplify(shapely.LinearRing(ring), tolerance, preserve_topology=False) for ring in rings]
+    outer, *holes = (shapely.get_coordinates(line) for line in lines)
+    return [outer, *(hole for hole in holes if len(hole) >= 4)]
 
 
 def _simple(rings: Sequence[Points]) -> list[Points] | None:

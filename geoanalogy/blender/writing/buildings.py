@@ -3,7 +3,7 @@
 import os
 import zlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -121,13 +121,13 @@ def write(
         scene, built = _linked(ground, products, results, report)
     for name, value in (properties or {}).items():
         scene[name] = value
-    # The picture first: where it fails, nothing has been written.
-    if results.render is not None:
-        report(1.0, "drawing")
-        with _whole(results.render) as part:
-            draw_picture(scene, part)
-    if results.output is not None:
-        _save(results.output)
+    # Both are complete before either takes its place.
+    with ExitStack() as parts:
+        if results.render is not None:
+            report(1.0, "drawing")
+            draw_picture(scene, parts.enter_context(_whole(results.render)))
+        if results.output is not None:
+            _save(results.output)
     return built
 
 
