@@ -24,10 +24,10 @@ from .refinement import Refined, refine
 from .transformation import Nodes
 
 #: Alignments, chains and sets of correspondences that become candidates at most.
-MOST_ALIGNED, MOST_CHAINED, MOST_CLUSTERS = 60, 60, 40
+MOST_ALIGNED, MOST_CHAINED, MOST_CLUSTERS = 45, 45, 30
 #: Candidates of chains, alignments, sets and groups that are kept as the best of their kind: of each place, and in all.
 #: What a part was cut from brings fewer lines onto lines than what is wrong, but its chain is as good.
-QUOTAS = ((4, 14), (3, 10), (1, 3), (1, 2))
+QUOTAS = ((4, 14), (3, 10), (1, 4), (2, 6))
 #: Candidates of each place, of each source, and in all, of which those are added that bring most lines onto lines.
 EACH_PLACE, EACH_SOURCE, MOST_STARTS = 6, 32, 44
 #: Share of the query points that a set of correspondences must have.
@@ -129,7 +129,7 @@ def candidates(
     sources = [_distinct(some, near) for some in (*along, linked, laid)]
     best = [s for some, quota in zip(sources, QUOTAS, strict=True) for s in _first(some, fitter, *quota)]
     others = [s for some in sources for s in _first(some, fitter, EACH_PLACE, EACH_SOURCE)]
-    starts = _distinct(best + _promising(others, fitter), near)[:MOST_STARTS]
+    starts = _distinct(best + _promising(others, fitter), near)[: max(MOST_STARTS, len(best))]
     return Candidates(starts, alignments, chains, refined)
 
 

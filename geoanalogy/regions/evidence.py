@@ -41,7 +41,7 @@ EXPONENTS = {
     "corners": 1.68,
     "aligned": 0.29,
     "turns": 0.73,
-    "unmirrored": 1.2,
+    "unmirrored": 0.5,
 }
 SPREAD = 5.0
 #: Evidence of corners beyond which more of it says no more: three or four times out of a million by chance.

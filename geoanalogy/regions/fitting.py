@@ -230,20 +230,26 @@ class Fitter:
         return np.asarray((np.exp(-0.5 * (gap / (FAR * unit)) ** 2) * (0.5 + 0.5 * along)).mean(1), dtype=np.float64)
 
     def apart(self, unknowns: Complex, mirrored: NDArray[np.bool_], each: int, most: int) -> NDArray[np.intp]:
-        """Indices of `most` candidates, given best first: of every place the first `each`, then the best of the rest.
+        """Indices of about `most` candidates, given best first: of every place `each`, then the best of the rest.
 
-        A place with many candidates (a circle fits in every direction) would otherwise crowd out all others.
+        A place with many candidates (a circle fits in every direction) would otherwise crowd out all others. Every
+        place gets its first before any gets its second; where there are more places than `most`, up to half as many
+        more candidates are taken.
         """
         m = len(self.nodes.at)
         centre = unknowns[:, :m].mean(1)
         centre = np.where(mirrored, np.conj(centre), centre)
         extent = self.size * np.abs(unknowns[:, m:]).mean(1)
+        turn = np.full(len(unknowns), each)
         kept: list[int] = []
-        left: list[int] = []
         for i in range(len(unknowns)):
             reach = PLACE * np.maximum(extent[i], extent[kept])
-            (kept if (np.abs(centre[kept] - centre[i]) < reach).sum() < each else left).append(i)
-        return np.array(sorted([*kept, *left][:most]), np.intp)
+            before = int((np.abs(centre[kept] - centre[i]) < reach).sum())
+            if before < each:
+                kept.append(i)
+                turn[i] = before
+        most = min(max(most, int((turn == 0).sum())), 3 * most // 2)
+        return np.sort(np.argsort(turn, kind="stable")[:most])
 
     def counterparts(
         self, unknowns: Complex, mirrored: NDArray[np.bool_], costs: Costs

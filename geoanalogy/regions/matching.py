@@ -16,6 +16,7 @@ from .marks import laid, of_marks
 from .options import RegionOptions
 from .query import Query
 from .refinement import Refined
+from .standing import least_shown
 from .transformation import Nodes, TransformationFunction
 
 #: Candidates of each place that are fitted to the end where branches may share a place.
@@ -188,7 +189,7 @@ def matching(
     region = Query.of(drawing, query, options)
     contours = drawing.contours
     if not region.rest:
-        return Matches([], options.threshold)
+        return Matches([], 0.0)
     nodes = Nodes.of(region.points, region.spacing, options.neighbourhood)
     fitter = Fitter(contours, region, nodes)
     refined: Refined | None = None
@@ -227,9 +228,8 @@ def matching(
     fits.sort(key=lambda f: -f[1].similarity)
     kept = list(_separate(fits, fitter, options.branches))[: options.most]
     chosen = [RegionMatch(drawing, fit, e, node_support(fitter, support(fit))) for fit, e in kept]
-    best = chosen[0].similarity if chosen else 0.0
-    least_shown = max(options.threshold, options.contrast * best)
-    return Matches(chosen, least_shown, refined, nodes, region.size)
+    shown = least_shown(np.array([m.similarity for m in chosen]), options.threshold, options.contrast)
+    return Matches(chosen, shown, refined, nodes, region.size)
 
 
 def _separate(found: list[tuple[Fit, Evidence]], fitter: Fitter, branches: bool) -> Iterator[tuple[Fit, Evidence]]:

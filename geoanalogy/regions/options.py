@@ -14,11 +14,12 @@ class RegionOptions:
     Attributes
     ----------
     threshold : float
-        Least similarity of a match that is shown, 0 to 1. Matches keep their similarity, so a slider filters them
-        without computing anything again (`Matches.above`).
+        How far a match must stand out of its drawing to be shown (`geoanalogy.regions.standing`), 0 to 1; 0 shows all.
+        The least similarity that follows from it is the `threshold` of the matches. They keep their similarity, so a
+        slider filters them without computing anything again (`Matches.above`).
     contrast : float
-        Least similarity of a match that is shown as a share of the best one's: where one place is much more alike than
-        all others, the others are clutter.
+        The same as a share of how far the best one does: where one place is much more alike than all others, the
+        others are clutter.
     query_kind : str
         "region" for a ring, "stroke" for an open line, "auto": a ring where the gap between its ends is no larger than
         one and a half times the longest of its edges, a stroke elsewhere.
@@ -45,7 +46,7 @@ class RegionOptions:
         Matches that are returned at most.
     """
 
-    threshold: float = 0.39
+    threshold: float = 0.33
     contrast: float = 0.65
     query_kind: str = "auto"
     query_points: int = 50

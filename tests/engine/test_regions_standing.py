@@ -1,0 +1,53 @@
+"""What stands out of a drawing, and is shown."""
+
+import numpy as np
+import pytest
+from drawn import bent, box, fish, moved
+from hypothesis import given
+from hypothesis import strategies as st
+
+import geoanalogy as ga
+from geoanalogy.regions.standing import HALFWAY, least_shown, standing
+
+SIMILARITIES = st.lists(st.floats(0.0, 1.0), min_size=1, max_size=12)
+
+
+@given(SIMILARITIES)
+def test_standing_ascends_from_nothing_to_one(values):
+    every = np.sort(values)[::-1]
+    found = standing(np.linspace(0.0, 1.0, 50), every)
+    assert (np.diff(found) >= -1e-12).all()
+    assert found[0] == pytest.approx(0.0, abs=1e-6) and found[-1] == pytest.approx(1.0)
+
+
+def test_the_same_similarity_stands_out_of_weak_clutter_more_than_of_strong():
+    half = np.array([HALFWAY])
+    among_alike = standing(half, np.array([0.5, 0.5, 0.5, 0.5, 0.5]))[0]
+    among_weak = standing(half, np.array([0.5, 0.1, 0.1, 0.1, 0.1]))[0]
+    assert among_alike == pytest.approx(0.5, abs=0.02)
+    assert among_weak > 0.75
+
+
+@given(SIMILARITIES, st.floats(0.01, 0.99), st.floats(0.0, 0.99))
+def test_what_is_shown_stands_out_and_what_is_not_does_not(values, threshold, contrast):
+    every = np.sort(values)[::-1]
+    least = least_shown(every, threshold, contrast)
+    found = standing(every, every)
+    needed = max(threshold, contrast * found[0])
+    assert (found[every >= least] >= needed - 1e-6).all()
+    assert (found[every < least] < needed + 1e-6).all()
+
+
+def test_all_is_shown_without_threshold_and_contrast():
+    assert least_shown(np.array([0.7, 0.01, 0.0]), 0.0, 0.0) == 0.0
+    assert least_shown(np.zeros(0), 0.5, 0.5) == 0.0
+
+
+def test_a_match_keeps_its_similarity_whatever_else_the_drawing_has():
+    target = [moved(bent(line, 0.9), 0.8, 1.0, (2.5, 0.5)) for line in fish()]
+    other = [moved(line, shift=(6.0, 0.0)) for line in fish()]
+    alone = ga.match_regions(ga.Drawing(fish() + target), box(fish()))
+    beside = ga.match_regions(ga.Drawing(fish() + target + other), box(fish()))
+    assert beside[0].similarity > 0.95
+    assert beside[1].similarity == pytest.approx(alone[0].similarity, abs=0.05)
+    assert alone.threshold < beside.threshold
