@@ -2,7 +2,6 @@
 
 import bpy
 
-from ..geoanalogy.blender.regions.decisions import decide_on_regions
 from ..geoanalogy.blender.tree.corrections import decide, selected_results
 from .edit import Edit, needs_operations
 
@@ -19,9 +18,7 @@ class GEOANALOGY_OT_accept(Edit, bpy.types.Operator):
 
     def edit(self, context):
         """Write the verdict."""
-        count, others = decide_on_regions(context, selected_results(context), "accept")
-        count += decide(context, others, "accept") if others or not count else 0
-        return f"{count} accepted"
+        return f"{decide(context, selected_results(context), 'accept')} accepted"
 
 
 def register():

@@ -1,17 +1,17 @@
 """Propagate in every scope one of the selected objects, by lot."""
 
 import bpy
-from bpy.props import FloatProperty, IntProperty, StringProperty
+from bpy.props import IntProperty, StringProperty
 
 from ..geoanalogy.blender import names
 from ..geoanalogy.blender.pairs import read_pairs
-from ..geoanalogy.blender.tree.recording import THRESHOLD, choice_steps
+from ..geoanalogy.blender.tree.recording import choice_steps
 from ..geoanalogy.errors import InputError
 from .edit import LongEdit, needs_object_mode
-from .pose_settings import MOST_OF, PoseSettings, most_per
+from .pose_settings import SiftedPoses
 
 
-class GEOANALOGY_OT_choose(PoseSettings, LongEdit, bpy.types.Operator):
+class GEOANALOGY_OT_choose(SiftedPoses, LongEdit, bpy.types.Operator):
     """Put one of the selected objects, chosen by lot, into every polygon like the one they are in"""
 
     bl_idname = "geoanalogy.choose"
@@ -21,27 +21,11 @@ class GEOANALOGY_OT_choose(PoseSettings, LongEdit, bpy.types.Operator):
         name="Scope",
         description="Label of the polygons that get one choice each; empty: the label of the example's polygon",
     )
-    threshold: FloatProperty(
-        name="Threshold", description="Least importance of a result", min=0.0, max=1.0, default=THRESHOLD
-    )
-    most: IntProperty(
-        name="At Most",
-        description="Most objects in every polygon like the example's, the example counted; 0 is any number",
-        min=0,
-        default=1,
-    )
     shares: StringProperty(
         name="Shares",
         description="How often objects are chosen in proportion to the others, 1 unless it is said, as in: oak 3, "
         "birch 1; 0 is never",
     )
-    spacing: FloatProperty(
-        name="Spacing",
-        description="Least distance between two results; 0 is as near as they do not touch",
-        min=0.0,
-        subtype="DISTANCE",
-    )
-    most_of: StringProperty(name="In Others", description=MOST_OF)
     seed: IntProperty(name="Seed", description="For other choices", min=0)
 
     @classmethod
@@ -58,9 +42,7 @@ class GEOANALOGY_OT_choose(PoseSettings, LongEdit, bpy.types.Operator):
             scope=self.scope.strip() or None,
             weights=self._weights(items),
             seed=self.seed,
-            threshold=round(self.threshold, 6),
-            max_per=most_per(self.most, self.most_of),
-            spacing=self.spacing or None,
+            **self.sifting(),
         )
         return f"{node[names.COUNT]} results"
 
@@ -75,10 +57,9 @@ class GEOANALOGY_OT_choose(PoseSettings, LongEdit, bpy.types.Operator):
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
-        for name in ("scope", "shares", "seed", "threshold", "most", "spacing"):
+        for name in ("scope", "shares", "seed"):
             layout.prop(self, name)
-        if self.other_parents or not self.use_labels:
-            layout.prop(self, "most_of")
+        self.draw_sifting(layout)
         self.draw_pose_settings(layout)
 
 

@@ -2,9 +2,7 @@
 
 import bpy
 
-from ..geoanalogy.blender.regions.decisions import forget_regions
 from ..geoanalogy.blender.tree.placement_recording import forgotten_steps
-from ..geoanalogy.blender.tree.store import works_on_drawings
 from .edit import LongEdit, active_operation, needs_operations
 
 
@@ -20,10 +18,7 @@ class GEOANALOGY_OT_forget_decisions(LongEdit, bpy.types.Operator):
 
     def steps(self, context):
         """Take the verdicts back."""
-        node = active_operation(context)
-        if works_on_drawings(node):
-            return f"{forget_regions(context, node)} decisions taken back"
-        count = yield from forgotten_steps(context, node)
+        count = yield from forgotten_steps(context, active_operation(context))
         return f"{count} decisions taken back"
 
 

@@ -1,10 +1,12 @@
 """The options of propagation that several operators show in their redo panels."""
 
+from typing import Any
+
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ..geoanalogy.blender.pairs import read_counts, read_pairs
-from ..geoanalogy.blender.tree.recording import LEAST_IMPORTANCE
+from ..geoanalogy.blender.tree.recording import LEAST_IMPORTANCE, THRESHOLD
 from ..geoanalogy.poses.options import PoseOptions
 from ..geoanalogy.relations.table import POSE_RELATIONS
 
@@ -13,8 +15,6 @@ RELATION_ITEMS = [
     (row.name, row.name.replace("_", " ").capitalize(), f"Whether {row.name.replace('_', ' ')} counts", 1 << i)
     for i, row in enumerate(POSE_RELATIONS)
 ]
-
-MOST_OF = "Most objects in polygons of other labels, as in: room 2, corridor 1"
 
 #: What is shown at once, and what only where more is asked for.
 SHOWN = ("mirror", "scale", "accumulation", "level_set_width", "validate", "clearance")
@@ -32,12 +32,6 @@ MORE = (
 )
 
 _PLAIN = PoseOptions()
-
-
-def most_per(count: int, others: str) -> dict[str, int] | None:
-    """How many objects polygons may hold: those like the example's, and those of labels that are typed."""
-    own = {"": count} if count else {}
-    return own | read_counts(others, "number") or None
 
 
 class PoseSettings:
@@ -187,3 +181,38 @@ class PoseSettings:
             layout.prop(self, name)
         column = layout.column(heading="Relations")
         column.prop(self, "relations")
+
+
+class SiftedPoses(PoseSettings):
+    """The same, with what sifts results: a threshold, how many a polygon may hold, and how near they may be."""
+
+    threshold: FloatProperty(
+        name="Threshold", description="Least importance of a result", min=0.0, max=1.0, default=THRESHOLD
+    )
+    most: IntProperty(
+        name="At Most",
+        description="Most objects in every polygon like the example's, the example counted; 0 is any number",
+        min=0,
+        default=1,
+    )
+    most_of: StringProperty(
+        name="In Others", description="Most objects in polygons of other labels, as in: room 2, corridor 1"
+    )
+    spacing: FloatProperty(
+        name="Spacing",
+        description="Least distance between two results; 0 is as near as they do not touch",
+        min=0.0,
+        subtype="DISTANCE",
+    )
+
+    def sifting(self) -> dict[str, Any]:
+        """The arguments of what records; an InputError where the numbers cannot be read."""
+        most = ({"": self.most} if self.most else {}) | read_counts(self.most_of, "number")
+        return {"threshold": round(self.threshold, 6), "max_per": most or None, "spacing": self.spacing or None}
+
+    def draw_sifting(self, layout: bpy.types.UILayout) -> None:
+        """Draw them into a redo panel."""
+        for name in ("threshold", "most", "spacing"):
+            layout.prop(self, name)
+        if self.other_parents or not self.use_labels:
+            layout.prop(self, "most_of")

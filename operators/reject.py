@@ -2,7 +2,6 @@
 
 import bpy
 
-from ..geoanalogy.blender.regions.decisions import decide_on_regions
 from ..geoanalogy.blender.tree.corrections import selected_results
 from ..geoanalogy.blender.tree.placement_recording import rejected_steps
 from .edit import LongEdit, needs_operations
@@ -20,9 +19,7 @@ class GEOANALOGY_OT_reject(LongEdit, bpy.types.Operator):
 
     def steps(self, context):
         """Write the verdict."""
-        count, others = decide_on_regions(context, selected_results(context), "reject")
-        if others or not count:
-            count += yield from rejected_steps(context, others)
+        count = yield from rejected_steps(context, selected_results(context))
         return f"{count} rejected"
 
 

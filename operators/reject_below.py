@@ -2,9 +2,7 @@
 
 import bpy
 
-from ..geoanalogy.blender.regions.decisions import reject_regions_below
 from ..geoanalogy.blender.tree.corrections import reject_below
-from ..geoanalogy.blender.tree.store import works_on_drawings
 from .edit import Edit, active_operation, needs_operations
 
 
@@ -20,8 +18,7 @@ class GEOANALOGY_OT_reject_below(Edit, bpy.types.Operator):
 
     def edit(self, context):
         """Write the verdicts."""
-        node = active_operation(context)
-        return f"{(reject_regions_below if works_on_drawings(node) else reject_below)(context, node)} rejected"
+        return f"{reject_below(context, active_operation(context))} rejected"
 
 
 def register():

@@ -4,6 +4,10 @@ import textwrap
 
 import bpy
 
+from ..geoanalogy.blender import names
+from ..geoanalogy.blender.tree.node_settings import stored_settings
+from ..geoanalogy.blender.tree.store import is_building
+
 
 class SidebarPanel:
     """A panel in the sidebar of the 3D view, under "GeoAnalogy"."""
@@ -48,3 +52,20 @@ def share(layout: bpy.types.UILayout, text: str, part: float) -> None:
     if len(lines) > 1:
         paragraph(layout, text)
     layout.progress(factor=part, type="BAR", text=f"{part:.2f}" if len(lines) > 1 else text)
+
+
+def sifting(layout: bpy.types.UILayout, node: bpy.types.Node, done: str) -> None:
+    """Draw how much an operation has done, what sifts it, what is decided by hand, and what is wrong with it."""
+    layout.label(text=f"{node.name}: {int(node.get(names.COUNT, 0))} {done}", icon="OUTLINER_OB_GROUP_INSTANCE")
+    if "threshold" in stored_settings(node):
+        column = layout.column(align=True)
+        column.prop(node, "threshold", slider=True)
+        column.operator("geoanalogy.reject_below", icon="TRASH")
+    if not is_building(node):
+        row = layout.row(align=True)
+        row.operator("geoanalogy.accept", icon="CHECKMARK")
+        row.operator("geoanalogy.reject", icon="X")
+        row.operator("geoanalogy.forget_decisions", text="", icon="LOOP_BACK")
+    problem = node.get(names.PROBLEM)
+    if problem:
+        paragraph(layout, problem, "ERROR")

@@ -7,7 +7,7 @@ from ..geoanalogy.blender.regions.results import uncertain_results
 from ..geoanalogy.blender.regions.settings import SETTINGS
 from ..geoanalogy.blender.regions.space_view import space_collection
 from ..geoanalogy.blender.tree.store import tree_of, works_on_drawings
-from .base import SidebarPanel, hint, paragraph
+from .base import SidebarPanel, hint, sifting
 
 #: Results that are listed.
 MOST_LISTED = 3
@@ -51,16 +51,7 @@ class GEOANALOGY_PT_drawings(SidebarPanel, bpy.types.Panel):
         if node is None or not works_on_drawings(node):
             hint(layout, "Nothing found yet")
             return
-        column = layout.column(align=True)
-        column.label(text=f"{node.name}: {int(node.get(names.COUNT, 0))} regions", icon="OUTLINER_OB_GROUP_INSTANCE")
-        column.prop(node, "threshold", slider=True)
-        row = column.row(align=True)
-        row.operator("geoanalogy.accept", icon="CHECKMARK")
-        row.operator("geoanalogy.reject", icon="X")
-        row.operator("geoanalogy.forget_decisions", text="", icon="LOOP_BACK")
-        problem = node.get(names.PROBLEM)
-        if problem:
-            paragraph(layout, problem, "ERROR")
+        sifting(layout, node, "regions")
         self._draw_result(context, layout, node)
         column = layout.column(align=True)
         column.label(text="Carry Over")

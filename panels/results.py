@@ -5,9 +5,8 @@ import bpy
 from ..geoanalogy.blender import names
 from ..geoanalogy.blender.tree.explanation import explanation_of
 from ..geoanalogy.blender.tree.learned import novelty_of, placed_on, rule_of, unfamiliar_of
-from ..geoanalogy.blender.tree.node_settings import stored_settings
 from ..geoanalogy.blender.tree.store import drawing_nodes, is_building, operation_nodes, tree_of
-from .base import SidebarPanel, hint, paragraph, share
+from .base import SidebarPanel, hint, share, sifting
 
 #: Relations and faces that are listed.
 MOST_LISTED = 4
@@ -30,19 +29,7 @@ class GEOANALOGY_PT_results(SidebarPanel, bpy.types.Panel):
         if node is None or node not in operation_nodes(tree):
             hint(layout, "Nothing propagated yet")
             return
-        done = "changed" if is_building(node) else "placed"
-        layout.label(text=f"{node.name}: {int(node.get(names.COUNT, 0))} {done}", icon="OUTLINER_OB_GROUP_INSTANCE")
-        if "threshold" in stored_settings(node):
-            layout.prop(node, "threshold", slider=True)
-            layout.operator("geoanalogy.reject_below", icon="TRASH")
-        if not is_building(node):
-            row = layout.row(align=True)
-            row.operator("geoanalogy.accept", icon="CHECKMARK")
-            row.operator("geoanalogy.reject", icon="X")
-            row.operator("geoanalogy.forget_decisions", text="", icon="LOOP_BACK")
-        problem = node.get(names.PROBLEM)
-        if problem:
-            paragraph(layout, problem, "ERROR")
+        sifting(layout, node, "changed" if is_building(node) else "placed")
         self._draw_learned(context, layout, node)
         self._draw_reasons(context, layout)
 

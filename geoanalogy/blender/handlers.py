@@ -7,6 +7,7 @@ from .reading.ground import memory
 from .regions.finding import forget_found
 from .tree.evaluating import evaluations
 from .tree.explanation import forget_explanations
+from .tree.store import forget_operations
 
 
 @persistent
@@ -20,6 +21,7 @@ def _after_load(path):
     evaluations.clear()
     memory.clear()
     forget_found()
+    forget_operations()
 
 
 HANDLERS = (("undo_post", _after_undo), ("redo_post", _after_undo), ("load_post", _after_load))

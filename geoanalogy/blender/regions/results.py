@@ -10,7 +10,6 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ...operations.decisions import Decisions
 from ...operations.region_transfer import RegionTransfer
 from .. import names
 from ..holders import ensure_holder_with
@@ -209,24 +208,23 @@ def _same(keys: Iterable[str], targets: Sequence[StoredTarget]) -> set[str]:
     return found
 
 
-def reject_all_below(node: bpy.types.Node) -> Decisions:
-    """The decisions of a node with everything rejected that its threshold hides.
+def hidden_targets(node: bpy.types.Node) -> list[str]:
+    """The regions that a node's threshold hides and that nobody has decided on.
 
     Parameters
     ----------
     node : bpy.types.Node
+        Of a region transfer.
 
     Returns
     -------
-    Decisions
+    list of str
+        Their keys.
     """
     operation = engine_node(node).operation
     decisions, targets = operation.decisions, targets_found(node)
     kept = _same((*decisions.accepted, *decisions.rejected), targets)
-    for target in targets:
-        if target.similarity < operation.threshold and target.key not in kept:
-            decisions = decisions.reject(target.key)
-    return decisions
+    return [t.key for t in targets if t.similarity < operation.threshold and t.key not in kept]
 
 
 def contents_of(node: bpy.types.Node) -> list[bpy.types.Object]:

@@ -16,10 +16,19 @@ from .. import names
 from ..reading.footprints import pose_of
 from ..reading.planes import Plane
 from ..reading.sites import site_under, sites_before
+from ..regions.results import hidden_targets
 from .evaluating import mark_stale
 from .refresh import proposed_by
 from .showing import show_again
-from .store import builds, engine_node, is_building, is_placement, placed_by, require_operations
+from .store import (
+    builds,
+    engine_node,
+    is_building,
+    is_placement,
+    placed_by,
+    require_operations,
+    works_on_drawings,
+)
 from .writing_nodes import write_operation
 
 #: Distance, in scene units, and angle, in radians, from its place below which a result has not been moved: single
@@ -72,7 +81,7 @@ def decide(context: bpy.types.Context, items: Iterable[bpy.types.Object], verdic
         raise InputError("the masses are merged into one mesh per label; show them singly in step 5 to correct one")
     if missing:
         raise InputError(f"the operation {missing[0]!r} is no longer there; replay, and its results will go")
-    changed = []
+    changed, keys = [], {name: _keys(group) for name, group in by_node.items()}
     for name, group in by_node.items():
         node = tree.nodes[name]
         engine = engine_node(node)
@@ -81,13 +90,19 @@ def decide(context: bpy.types.Context, items: Iterable[bpy.types.Object], verdic
                 f"object {group[0].name!r} was made of the plan itself by {name!r}, not placed; correct the plan"
             )
         decisions = engine.operation.decisions
-        pins = _pins(context, node, group) if verdict == "accept" else {}
-        for key in dict.fromkeys(item[names.KEY] for item in group):
+        # What is carried over to a region stands where that is found.
+        pins = _pins(context, node, group) if verdict == "accept" and not works_on_drawings(node) else {}
+        for key in keys[name]:
             decisions = decisions.pin(key, pins[key]) if key in pins else getattr(decisions, verdict)(key)
         changed.append((node, engine, decisions))
     for node, engine, decisions in changed:
         _write_decisions(context, node, engine, decisions)
-    return sum(len(group) for group in by_node.values())
+    return sum(map(len, keys.values()))
+
+
+def _keys(items: Iterable[bpy.types.Object]) -> list[str]:
+    """The keys of results, each once: several objects may be one result."""
+    return list(dict.fromkeys(item[names.KEY] for item in items))
 
 
 def reject_below(context: bpy.types.Context, node: bpy.types.Node) -> int:
@@ -104,14 +119,20 @@ def reject_below(context: bpy.types.Context, node: bpy.types.Node) -> int:
         How many.
     """
     engine = engine_node(node)
-    threshold = getattr(engine.operation, "threshold", 0.0)
     decisions = engine.operation.decisions
-    kept = {*decisions.accepted, *decisions.pinned, *decisions.rejected}
-    below = [e.key for e in proposed_by(node) if e.importance < threshold and not e.example and e.key not in kept]
+    below = hidden_targets(node) if works_on_drawings(node) else _hidden_results(node, engine)
     for key in below:
         decisions = decisions.reject(key)
     _write_decisions(context, node, engine, decisions)
     return len(below)
+
+
+def _hidden_results(node: bpy.types.Node, engine: Node) -> list[str]:
+    """The keys of results that a threshold hides and that nobody has decided on."""
+    threshold = getattr(engine.operation, "threshold", 0.0)
+    decisions = engine.operation.decisions
+    kept = {*decisions.accepted, *decisions.pinned, *decisions.rejected}
+    return [e.key for e in proposed_by(node) if e.importance < threshold and not e.example and e.key not in kept]
 
 
 def forget_all(context: bpy.types.Context, node: bpy.types.Node) -> int:
@@ -136,7 +157,7 @@ def forget_all(context: bpy.types.Context, node: bpy.types.Node) -> int:
 def _write_decisions(context: bpy.types.Context, node: bpy.types.Node, engine: Node, decisions: Decisions) -> None:
     write_operation(node, replace(engine, operation=replace(engine.operation, decisions=decisions)))
     show_again(context, node)
-    if not builds(node.id_data):
+    if not builds(node.id_data) and not works_on_drawings(node):
         mark_stale(node.id_data, node)
 
 

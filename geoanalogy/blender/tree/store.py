@@ -8,6 +8,7 @@ id, and its mute switch is the engine's.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import bpy
 import numpy as np
@@ -18,6 +19,7 @@ from ...operations.boolean import Boolean
 from ...operations.evaluation import Evaluations
 from ...operations.extrusion import Extrusion
 from ...operations.node import Link, Node
+from ...operations.operation import Operation
 from ...operations.rectangle_placement import RectanglePlacement
 from ...operations.region_transfer import RegionTransfer
 from ...operations.selection import Selection
@@ -351,14 +353,31 @@ def engine_tree(
     """
     made = []
     for node in nodes:
-        plain = from_property(node[names.OPERATION])
-        sources = [{"node": source.name, "output": output} for source, output in sources_of(node)] if linked else []
-        entry = {"id": node.name, "type": plain.get("type"), "settings": plain.get("settings", {})}
-        entry |= {"inputs": sources, "muted": node.mute}
-        holder = {"schema": plain.get("schema"), "nodes": [{**entry, "inputs": []}]}
-        (read,) = OperationsTree.from_dict(holder, f"the operation {node.name!r}").nodes
-        made.append(Node(read.id, read.operation, tuple(Link(s["node"], s["output"]) for s in sources), node.mute))
+        links = tuple(Link(source.name, output) for source, output in sources_of(node)) if linked else ()
+        made.append(Node(node.name, _operation_of(node), links, node.mute))
     return OperationsTree(made, evaluations)
+
+
+#: The operations that were read last, by the names of their nodes, with what they were read from.
+_read: dict[str, tuple[Any, Operation]] = {}
+
+
+def _operation_of(node: bpy.types.Node) -> Operation:
+    """The operation of a node: the same object as before, where nothing of it has changed."""
+    plain = from_property(node[names.OPERATION])
+    known = _read.get(node.name)
+    if known is not None and known[0] == plain:
+        return known[1]
+    entry = {"id": node.name, "type": plain.get("type"), "settings": plain.get("settings", {})}
+    holder = {"schema": plain.get("schema"), "nodes": [{**entry, "inputs": [], "muted": False}]}
+    (read,) = OperationsTree.from_dict(holder, f"the operation {node.name!r}").nodes
+    _read[node.name] = plain, read.operation
+    return read.operation
+
+
+def forget_operations() -> None:
+    """Forget what has been read: another file has other nodes."""
+    _read.clear()
 
 
 def placed_by(node: bpy.types.Node) -> list[Placed]:
@@ -397,6 +416,6 @@ def require_operations(scene: bpy.types.Scene) -> bpy.types.NodeTree:
         Where there are none.
     """
     tree = tree_of(scene)
-    if tree is None or not operation_nodes(tree):
+    if not recorded_nodes(tree):
         raise InputError(f"the scene {scene.name!r} has no operations; propagate an object first")
     return tree
