@@ -367,3 +367,49 @@ def test_an_appended_tree_builds_in_another_file(tmp_path):
     # The parcels that it was restricted to are not here: it is applied to all.
     assert bpy.ops.geoanalogy.apply(EXEC, True) == {"FINISHED"}
     assert sorted(volumes().values()) == pytest.approx(built, rel=1e-4)
+
+
+@pytest.fixture
+def asked(monkeypatch):
+    """The names of the nodes that are asked what they propose, in order."""
+    kind = bridge("tree.evaluating").TimedEvaluations
+    names, proposal = [], kind.proposal
+
+    def told(self, node, layout, seed):
+        names.append(node.id)
+        return (yield from proposal(self, node, layout, seed))
+
+    monkeypatch.setattr(kind, "proposal", told)
+    return names
+
+
+def test_a_slider_asks_only_what_follows_its_node_and_only_while_something_changes(asked):
+    corners, _ = houses()
+    node = windows(corners)
+    node.threshold = 0.4
+    high = volumes()
+    asked.clear()
+    node.threshold = 1.0
+    assert asked == ["window", "extrude window", "subtract window"]
+    assert volumes() != high
+    asked.clear()
+    node.threshold = 0.999
+    assert asked == ["window"]
+    node.threshold = 0.4
+    assert volumes() == high
+    bridge("tree.evaluating").evaluations.clear()
+    assert bpy.ops.geoanalogy.apply(EXEC, True) == {"FINISHED"}
+    assert volumes() == high
+
+
+def test_what_was_moved_or_relabelled_is_read_again(asked):
+    houses()
+    low = volumes()
+    bpy.data.objects["parcel 3"].scale.x = 1.2
+    asked.clear()
+    assert bpy.ops.geoanalogy.apply(EXEC, True) == {"FINISHED"}
+    assert asked == ["house", "extrude house"]
+    assert volumes() != low and len(volumes()) == len(low)
+    bpy.data.objects["parcel 3"]["ga_label"] = "meadow"
+    assert bpy.ops.geoanalogy.apply(EXEC, True) == {"FINISHED"}
+    assert len(volumes()) == len(low) - 1

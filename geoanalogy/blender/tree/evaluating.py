@@ -18,6 +18,7 @@ from ...operations.element import Element
 from ...operations.evaluation import Evaluations
 from ...operations.layout import Layout
 from ...operations.node import Link, Node
+from ...operations.operation import Operation
 from ...operations.tree import OperationsTree
 from ...progress import Stepper, within
 from .. import names
@@ -39,8 +40,27 @@ from .store import (
 )
 
 
+@dataclass(frozen=True)
+class _Flow:
+    """What a node was evaluated on, and what came of it."""
+
+    operation: Operation
+    muted: bool
+    seed: int
+    incoming: Layout
+    outgoing: tuple[Layout, ...]
+
+    def is_of(self, node: Node, layout: Layout, seed: int) -> bool:
+        """Whether a node is this very one, and what comes in to it and the seed are equal."""
+        same = self.operation is node.operation and (self.muted, self.seed) == (node.muted, seed)
+        return same and self.incoming == layout
+
+
 class TimedEvaluations(Evaluations):
     """What nodes have proposed, and how long each took when it was last computed.
+
+    Nodes that get what they got before give what they gave before, without being asked: where a slider is moved, only
+    what follows is looked at, and of that nothing that comes after the last change.
 
     Attributes
     ----------
@@ -53,6 +73,28 @@ class TimedEvaluations(Evaluations):
         super().__init__()
         self.proposed: dict[tuple[str, str], Any] = {}
         self.seconds: dict[tuple[str, str], float] = {}
+        self._flows: dict[tuple[str, str], _Flow] = {}
+        self._grounds: dict[str, Ground] = {}
+
+    def same_ground(self, ground: Ground) -> Ground:
+        """A ground as it was read before, where nothing of it has changed, with all that was derived from it."""
+        name = ground_name(ground.scene)
+        before = self._grounds.get(name)
+        if before is None or not _equal(before, ground):
+            before = self._grounds[name] = ground
+        return before
+
+    def steps(self, node: Node, layout: Layout, seed: int) -> Stepper[tuple[Layout, ...]]:
+        """What flows out of a node; where that equals what flowed out before, the same objects."""
+        where = node.id, ground_name(layout.ground)
+        before = self._flows.get(where)
+        if before is not None and before.is_of(node, layout, seed):
+            return before.outgoing
+        after = yield from super().steps(node, layout, seed)
+        if before is not None and len(before.outgoing) == len(after):
+            after = tuple(old if old == new else new for old, new in zip(before.outgoing, after, strict=True))
+        self._flows[where] = _Flow(node.operation, node.muted, seed, layout, after)
+        return after
 
     def proposal(self, node: Node, layout: Layout, seed: int) -> Stepper[Any]:
         """What a node proposes; what was computed for it is timed."""
@@ -66,8 +108,17 @@ class TimedEvaluations(Evaluations):
 
     def clear(self) -> None:
         """Forget everything."""
-        for kept in (self._kept, self.proposed, self.seconds):
+        self.leave_ground()
+        for kept in (self._surfaces, self.proposed, self.seconds, self._flows, self._grounds):
             kept.clear()
+
+
+def _equal(one: Ground, other: Ground) -> bool:
+    """Whether two grounds have the same polygons on the same plane."""
+    if (one.plane, one.alternatives, len(one.scene)) != (other.plane, other.alternatives, len(other.scene)):
+        return False
+    pairs = zip(one.scene.polygons, other.scene.polygons, strict=True)
+    return one.scene.offset == other.scene.offset and all(a.content == b.content for a, b in pairs)
 
 
 def ground_name(scene: Scene) -> str:
@@ -167,6 +218,7 @@ def read_surroundings(
     # Where many parcels are built on, one that cannot be used does not stand in the way of the others.
     problems: list[str] | None = [] if builds(tree) else None
     grounds = restricted(read_grounds(scene, depsgraph, without, problems), parcels)
+    grounds = [evaluations.same_ground(ground) for ground in grounds]
     nodes = ordered_nodes(tree)
     engine = engine_tree(nodes, evaluations)
     where = {node.name: None if works_everywhere(node) else ground_for(grounds, plane_of(node)) for node in nodes}
