@@ -5,7 +5,7 @@
 # make extension  build the extension's zips into dist/
 # make gallery    replay and draw every sample scene
 # make bench      the benchmarks
-# make figures    draw the studies of docs/studies.md
+# make figures    draw the studies of docs/studies.md, docs/regions.md and docs/placements.md
 #
 # Everything runs in .venv, made from a Python 3.11 or 3.13 (PYTHON=path chooses).
 
@@ -59,6 +59,8 @@ bench: $(READY)
 
 figures: $(READY)
 	$(PY) -m benchmarks.figures
+	$(PY) -m benchmarks.regions_figures
+	$(PY) -m benchmarks.placements_figures
 
 clean:
 	rm -rf .venv build dist output .pytest_cache .ruff_cache .mypy_cache .hypothesis

@@ -129,8 +129,20 @@ def methods() -> list[str]:
 
 
 def two_scales() -> Scene:
-    """Figure 3.10 a: a snake, and two of clearly different scales, tail to head."""
+    """A snake, and two of clearly different scales, tail to head."""
     return scene("two scales", snake(6), [moved(0.0, -1.0, 1.0, 0.0, 0.3), moved(2.35, -0.72, 0.5, 0.3, 0.4)])
+
+
+def joined_tails() -> Scene:
+    """Figure 3.10 a: a snake, and two of different scales whose tails lie over each other."""
+    first, bent = moved(0.0, -1.4, 1.0, 0.0, 0.3), moved(0.0, 0.0, 0.6, 0.0, 0.4)
+    tail = np.array([(1.9, 0.0), (1.91, 0.0)])
+    (at, ahead), (own, beyond) = first(tail), bent(tail)
+    heading = [complex(*(b - a)) for a, b in ((at, ahead), (own, beyond))]
+    turn = np.exp(0.3j) * heading[0] / heading[1]
+    turn /= abs(turn)
+    rotation = np.array([(turn.real, turn.imag), (-turn.imag, turn.real)])
+    return scene("joined tails", snake(6), [first, lambda points: (bent(points) - own) @ rotation + at])
 
 
 def feelers() -> Scene:
@@ -138,7 +150,11 @@ def feelers() -> Scene:
     return scene("feelers", butterfly(), [moved(1.7, 0.0, 0.9, 0.3, 0.9, 0.3)])
 
 
-LINKED = {"two snakes of different scale": two_scales, "butterfly with feelers": feelers}
+LINKED = {
+    "two snakes of different scale": two_scales,
+    "two snakes, tail over tail": joined_tails,
+    "butterfly with feelers": feelers,
+}
 
 
 def correspondences(case: Scene) -> tuple[ga.Drawing, Fitter, Nodes, Refined]:
@@ -155,7 +171,15 @@ def correspondences(case: Scene) -> tuple[ga.Drawing, Fitter, Nodes, Refined]:
             return drawing, Fitter(drawing.contours, query, nodes), nodes, end.value
 
 
-def linked(case: Scene, unit: float | None) -> list[Mapping]:
+@dataclass(frozen=True)
+class Linked:
+    """A set of refined correspondences, by their numbers, and the smoothest mapping through them."""
+
+    members: NDArray[np.intp]
+    map: Mapping
+
+
+def linked(case: Scene, unit: float | None) -> list[Linked]:
     """Sets of correspondences linked by the TPS, or by the projection error where its unit is given."""
     drawing, fitter, nodes, refined = correspondences(case)
     alike = (
@@ -183,7 +207,7 @@ def linked(case: Scene, unit: float | None) -> list[Mapping]:
 
         return carry
 
-    return [mapping(s.members) for s in sets[: 4 * len(case.targets)]]
+    return [Linked(s.members, mapping(s.members)) for s in sets[: 4 * len(case.targets)]]
 
 
 def tables(full: bool = False) -> Iterator[Table]:
@@ -209,8 +233,8 @@ def tables(full: bool = False) -> Iterator[Table]:
         ways: list[tuple[str, float | None]] = [("TPS", None)]
         ways += [(f"projection error, unit {100 * u:g} % of the query", u) for u in UNITS]
         for way, unit in ways:
-            mappings = linked(case, unit)
-            each = [min((case.error(m(case.points), t) for m in mappings), default=np.inf) for t in case.targets]
+            sets = linked(case, unit)
+            each = [min((case.error(s.map(case.points), t) for s in sets), default=np.inf) for t in case.targets]
             rows.append((name, way, ", ".join(f"{e:.1f}" for e in each)))
     yield Table(
         "Second-order similarity by the projection error in place of the TPS (figure 3.10)",
