@@ -571,6 +571,12 @@ def bad_nan():
     activate(first)
 
 
+def bad_flat():
+    first = sill("Flat", frame("south"), (1.0, 0.9))
+    first.scale.z = 0.0
+    activate(first)
+
+
 def bad_empty():
     activate(link(bpy.data.objects.new("Nothing", None), "sill"))
 
@@ -592,6 +598,7 @@ def bad_result():
         (bad_twice, "is given twice, with the targets 1 and 0.5; keep one of them"),
         (bad_askew, "object 'Askew' stands askew on the face and cannot be stretched; turn it parallel"),
         (bad_nan, "object 'Nowhere' has a location that is not finite; clear its transform"),
+        (bad_flat, "object 'Flat' has no extent on the face; turn it"),
         (bad_empty, "object 'Nothing' has no extent; choose an object that can be seen"),
         (bad_result, "is a result of 'sill' itself; select the example, or one of your own"),
     ],

@@ -84,6 +84,43 @@ def crossing_room():
     bed()
 
 
+def bedroom_of(ring):
+    rooms()
+    face("Bad", ring, "bedroom", at=(0, 10, 0))
+    bed()
+
+
+def no_area():
+    bedroom_of([(0, 0), (2, 2), (4, 4)])
+
+
+def not_a_number():
+    bedroom_of([(0, 0), (2, math.nan), (2, 2)])
+
+
+def huge():
+    bedroom_of([(0, 0), (3e38, 0), (3e38, 3e38), (0, 3e38)])
+
+
+def open_curve():
+    rooms()
+    data = bpy.data.curves.new("Open", "CURVE")
+    data.dimensions = "3D"
+    spline = data.splines.new("POLY")
+    spline.points.add(2)
+    for knot, point in zip(spline.points, [(0, 10), (4, 10), (4, 13)], strict=True):
+        knot.co = (*point, 0.0, 1.0)
+    link(bpy.data.objects.new("Open", data), "bedroom")
+    bed()
+
+
+def nothing_labelled():
+    rooms()
+    for item in bpy.data.objects:
+        del item["ga_label"]
+    bed()
+
+
 def newer():
     rooms()
     bed()
@@ -161,6 +198,11 @@ CASES = [
     (upright, PROPAGATE, "object 'Bed' has its x axis upright"),
     (no_extent, PROPAGATE, "object 'Point' has no extent on the plan"),
     (a_result, PROPAGATE, "is a result of 'bed' itself; select the example"),
+    (nothing_labelled, PROPAGATE, "the scene has no labelled outlines"),
+    (no_area, PROPAGATE, "object 'Bad' has no area"),
+    (not_a_number, PROPAGATE, "object 'Bad' has a coordinate that is not finite"),
+    (huge, PROPAGATE, "polygon 'Bad' lies more than .* from the origin; move the scene near the origin"),
+    (open_curve, PROPAGATE, "spline 1 of object 'Open' is open: its ends are 5 apart"),
     (crossing_room, PROPAGATE, "polygon 'Knot' crosses or touches itself"),
     (bad_footprint, PROPAGATE, "object 'Bed' has a footprint that is no list of x, y pairs"),
     (newer, REPLAY, "the operation 'bed' was saved by a newer version"),
