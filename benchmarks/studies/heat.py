@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 import geoanalogy as ga
 from geoanalogy.poses.arrangement import arrangement_of
-from geoanalogy.poses.candidates import accumulate_in_plane, directions
+from geoanalogy.poses.candidates import accumulate_in_plane
+from geoanalogy.poses.footprint_candidates import directions
 from geoanalogy.poses.importance import Importance
 
 Array = NDArray[np.float64]

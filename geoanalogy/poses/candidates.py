@@ -4,15 +4,13 @@ Three ways to accumulate, by the option of that name. All three only *find* plac
 `importance`, evaluated exactly.
 """
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.elements import ElementType
 from ..relations.table import Kind, Positional
-from .fields import FAR, Fields
+from .fields import Fields
 from .importance import Importance
 from .kernels import WIDE_SHARE, WIDE_WIDTH, level_set, wrap
 from .matching import Answers
@@ -20,28 +18,6 @@ from .matching import Answers
 Array = NDArray[np.float64]
 Array32 = NDArray[np.float32]
 Indices = NDArray[np.intp]
-
-#: Least distance between neighbouring candidate places of a footprint (the next whole step of the grid), and
-#: half-width of the level sets they are found with, in half-widths of the exact ones: coarse enough to be cheap, so
-#: wide that every exact maximum has a candidate on its slope.
-FOOTPRINT_STEP = 1.2
-FOOTPRINT_WIDTH = 3.0
-
-#: How deep inside an obstacle a sample at a candidate place may be, in the same unit: its maximum is up to a step away.
-FOOTPRINT_SLACK = 1.5
-
-#: Pairs of features that can contribute less than this share of the strongest one are left out where places are only
-#: looked for.
-STRONG = 0.15
-
-#: Values held at once while level sets are accumulated: 16 MB an array.
-MOST_VALUES = 4 << 20
-
-#: Most directions a footprint is tried in.
-MOST_DIRECTIONS = 24
-
-#: Candidates of a footprint whose wide importance is below this share of the best one's are not refined.
-WORTH_REFINING = 0.45
 
 #: Maxima taken on to exact evaluation, per grid.
 MAXIMA = 12
@@ -58,10 +34,26 @@ class Candidates:
     ----------
     position : ndarray of shape (m, 2)
     angle : ndarray of shape (m,)
+    strength : ndarray of shape (m,)
+        What the level sets accumulate to there, 1 for a perfect copy.
     """
 
     position: Array
     angle: Array
+    strength: Array
+
+    def of(self, chosen: NDArray[np.bool_]) -> "Candidates":
+        """Some of the places.
+
+        Parameters
+        ----------
+        chosen : ndarray of shape (m,), bool
+
+        Returns
+        -------
+        Candidates
+        """
+        return Candidates(self.position[chosen], self.angle[chosen], self.strength[chosen])
 
 
 def find_candidates(
@@ -84,184 +76,31 @@ def find_candidates(
     -------
     Candidates
     """
-    if importance.query.rigid:
-        return _of_footprint(importance, fields, blocked, taken)
     free = np.flatnonzero(~blocked & ~taken)
     in_space = importance.query.options.accumulation == "pose space"
     found = (_in_pose_space if in_space else _in_plane)(importance, fields, free)
     upright = importance.query.is_upright(found.angle, importance.mirrored)
-    return Candidates(found.position[upright], found.angle[upright])
+    return found.of(upright)
 
 
-# ------------------------------------------------------------------------------------------------ footprint
-
-
-def _of_footprint(
-    importance: Importance, fields: Fields, blocked: NDArray[np.bool_], taken: NDArray[np.bool_]
-) -> Candidates:
-    """Accumulate for all samples of the footprint, moved rigidly, in the few directions that the features suggest."""
-    grid = fields.grid
-    stride = max(1, math.ceil(FOOTPRINT_STEP * importance.width / grid.spacing))
-    importance = importance.of_strongest(STRONG)
-    rows, columns = np.arange(0, grid.rows, stride), np.arange(0, grid.columns, stride)
-    position, angle, strength = [], [], []
-    for direction in directions(importance):
-        c, s = np.cos(direction), np.sin(direction)
-        steps = grid.steps(importance.samples @ np.array([[c, s], [-s, c]]))
-        row = rows[(rows + steps[:, 1].min() >= 0) & (rows + steps[:, 1].max() < grid.rows)]
-        column = columns[(columns + steps[:, 0].min() >= 0) & (columns + steps[:, 0].max() < grid.columns)]
-        if not len(row) or not len(column):
-            continue
-        cells = (row[:, None] * grid.columns + column).ravel()
-        offsets = steps[:, 1] * grid.columns + steps[:, 0]
-        free = cells[~taken[cells] & ~blocked[cells[:, None] + offsets].any(axis=1)]
-        if not len(free):
-            continue
-        score = _accumulate(importance, fields, free, offsets, direction)
-        sheet = np.full(len(grid), -1.0, dtype=np.float32)
-        sheet[free] = score
-        sheet = sheet.reshape(grid.rows, grid.columns)[np.ix_(rows, columns)]
-        best = _maxima(sheet, 1)[: max(MAXIMA, importance.query.options.candidates)]
-        r, k = np.divmod(best, len(columns))
-        position.append(grid.points[rows[r] * grid.columns + columns[k]])
-        angle.append(np.full(len(best), direction))
-        strength.append(sheet.ravel()[best])
-    found = np.concatenate(strength) if strength else np.zeros(0, dtype=np.float32)
-    if not len(found):
-        return Candidates(np.zeros((0, 2)), np.zeros(0))
-    order = np.argsort(-found, kind="stable")[: 2 * max(MAXIMA, importance.query.options.candidates)]
-    order = order[found[order] >= WORTH_REFINING * found[order[0]]]
-    return Candidates(np.concatenate(position)[order], np.concatenate(angle)[order])
-
-
-def _accumulate(
-    importance: Importance,
-    fields: Fields,
-    cells: Indices,
-    offsets: Indices,
-    direction: float,
-) -> Array32:
-    """The importance of grid cells for one direction, with wide level sets; shape (cells,)."""
-    total = np.zeros(len(cells), dtype=np.float32)
-    width = np.float32(FOOTPRINT_WIDTH * importance.width)
-    # Where each sample of the footprint is.
-    places = cells + offsets[:, None]
-    parts = ((e, part) for e, a in importance.answers.items() for part in a.blocks(MOST_VALUES // len(cells) + 1))
-    for element, a in parts:
-        entries = np.zeros((len(a.target), len(cells)), dtype=np.float32)
-        for k, relation in enumerate(a.relations):
-            chosen, aligned = _aligned(importance, fields, element, relation, a, k, places, direction)
-            away = _away(relation, a, k, importance, fields, chosen, places[a.sample[chosen]])
-            away *= -1 / width
-            away += 1
-            weight = np.maximum(away, 0, out=away)
-            weight *= a.weight[k, chosen, None].astype(np.float32)
-            if aligned is not None:
-                weight *= aligned
-            entries[chosen] += weight
-        pairs = np.add.reduceat(entries, a.pair_start, axis=0)
-        pairs *= a.accuracy[:, None].astype(np.float32)
-        total += np.maximum.reduceat(pairs, a.feature_start, axis=0).sum(axis=0)
-    return total
-
-
-def _aligned(
-    importance: Importance,
-    fields: Fields,
-    element: ElementType,
-    relation: Positional,
-    a: Answers,
-    k: int,
-    places: Indices,
-    direction: float,
-) -> tuple[Indices, Array32 | None]:
-    """The entries whose directional level sets have a direction somewhere, and their kernels there.
-
-    The places of a footprint's samples tell directions from corners better.
-    """
-    every = np.arange(len(a.target))
-    if element is ElementType.CORNER:
-        return every, None
-    tolerance = importance.query.options.direction_width
-    heading = importance.target.elements.heading(element)
-    if heading is not None:  # the same everywhere
-        kernel = 1 - np.abs(wrap(direction - heading[a.target] - a.turn[k])) / tolerance
-        chosen = np.flatnonzero(kernel > 0)
-        return chosen, kernel[chosen, None].astype(np.float32)
-    miss = fields.direction(relation, a.target, places[a.sample])
-    miss = wrap(np.float32(direction) - miss - a.turn[k][:, None].astype(np.float32))
-    aligned = np.maximum(0, 1 - np.abs(miss) / np.float32(tolerance))
-    chosen = np.flatnonzero(aligned.any(axis=1))
-    return chosen, aligned[chosen]
+# ------------------------------------------------------------------------------------------------ plane
 
 
 def _away(
-    relation: Positional, a: Answers, k: int, importance: Importance, fields: Fields, chosen: Indices, where: Indices
+    relation: Positional, a: Answers, k: int, importance: Importance, fields: Fields, chosen: Indices, index: Indices
 ) -> Array32:
-    """Distance in the plane from the level sets of some entries at grid points; shape (chosen, points)."""
+    """Distance in the plane from the level sets of some entries; shape (chosen, points)."""
     target = a.target[chosen]
     value = a.value[k, chosen] * (importance.scale if relation.kind is Kind.LENGTH else 1.0)
-    miss = fields.value(relation, target, where) - value[:, None].astype(np.float32)
+    miss = fields.value(relation, index) - value[:, None].astype(np.float32)
     if relation.period is not None:
         period = relation.period(importance.target.elements)[target][:, None].astype(np.float32)
         cyclic = np.isfinite(period[:, 0])
         miss[cyclic] = wrap(miss[cyclic], period[cyclic])
     miss = np.abs(miss)
     if relation.kind is not Kind.LENGTH:
-        miss *= np.minimum(fields.reach(relation, target, where), np.float32(FAR / 100))
+        miss *= fields.reach(relation, index)
     return miss
-
-
-def directions(importance: Importance) -> list[float]:
-    """The directions a footprint may take: along the features that answer, as the example is along its own.
-
-    Parameters
-    ----------
-    importance : Importance
-
-    Returns
-    -------
-    list of float
-        Radians; strongest first, at least most of the directional kernel's width apart.
-    """
-    suggested, weight = [], []
-    for element, a in importance.answers.items():
-        if element is not ElementType.SEGMENT:
-            continue
-        e = importance.target.elements
-        heading = np.arctan2(e.edge_vector[:, 1], e.edge_vector[:, 0])
-        pair_of = np.repeat(np.arange(len(a.pair_start)), np.diff(np.append(a.pair_start, len(a.target))))
-        strength = a.weight.sum(axis=0) * a.accuracy[pair_of]
-        for edge, length in enumerate(e.edge_length):
-            mine = a.target == e.edge_segment[edge]
-            suggested.append((heading[edge] + a.turn[0, mine]) % (2 * np.pi))
-            weight.append(strength[mine] * length / e.segment_length[e.edge_segment[edge]])
-    if not suggested:
-        base = importance.target.parent.main_orientation - importance.query.arrangement.parent.main_orientation
-        quarters = base + importance.query.pose.angle + np.arange(4) * np.pi / 2
-        return [float(q) for q in quarters[importance.query.is_upright(quarters, importance.mirrored)]]
-    angle, strength = np.concatenate(suggested), np.concatenate(weight)
-    upright = importance.query.is_upright(angle, importance.mirrored)
-    angle, strength = angle[upright], strength[upright]
-    apart = 0.9 * importance.query.options.direction_width
-    result: list[float] = []
-    left = strength.copy()
-    while len(result) < MOST_DIRECTIONS and left.max(initial=0.0) > 0:
-        order = np.flatnonzero(left > 0)
-        # The angle that gathers most around it, then the mean of what it gathers.
-        lead = order[np.argsort(-left[order], kind="stable")][:64]
-        near = np.abs(wrap(angle[lead][:, None] - angle)) < apart
-        best = near[np.argmax((near * left).sum(axis=1))]
-        first = angle[np.flatnonzero(best)[0]]
-        mean = first + np.average(wrap(angle[best] - first), weights=np.maximum(left[best], 1e-12))
-        if result and (left * best).sum() < 0.02 * strength.sum():
-            break
-        result.append(float(mean % (2 * np.pi)))
-        left[best] = 0.0
-    return result
-
-
-# ------------------------------------------------------------------------------------------------ plane
 
 
 def _level_sets(importance: Importance, fields: Fields, free: Indices):  # type: ignore[no-untyped-def]
@@ -271,16 +110,17 @@ def _level_sets(importance: Importance, fields: Fields, free: Indices):  # type:
     the directions (pairs, points).
     """
     width = np.float32(importance.width)
-    for a in importance.answers.values():
+    for element, a in importance.answers.items():
         for start, end in zip(a.feature_start, np.append(a.feature_start[1:], len(a.accuracy)), strict=True):
             entry = a.pair_start[start:end]  # one sample: an entry is a pair
+            index = fields.index(element, a.target[entry], free)
             for k, relation in enumerate(a.relations):
-                away = _away(relation, a, k, importance, fields, entry, free)
+                away = _away(relation, a, k, importance, fields, entry, index)
                 away /= width
                 kernel = level_set(away)
                 accuracy = a.accuracy[start:end].astype(np.float32)
                 kernel *= accuracy[:, None]
-                towards = fields.direction(relation, a.target[entry], free)
+                towards = fields.direction(relation, index)
                 towards = towards + a.turn[k, entry, None].astype(np.float32)
                 yield float(a.weight[k, entry[0]]), accuracy, kernel, towards
 
@@ -328,7 +168,8 @@ def _in_plane(importance: Importance, fields: Fields, free: Indices) -> Candidat
     place[free] = np.arange(len(free))
     maximum, direction = _agreed_directions(importance, fields, best)
     cell = np.append(best, best[maximum])
-    return Candidates(grid.points[cell], np.append(strongest[place[best]], direction).astype(np.float64))
+    direction = np.append(strongest[place[best]], direction).astype(np.float64)
+    return Candidates(grid.points[cell], direction, score[place[cell]].astype(np.float64))
 
 
 def _agreed_directions(importance: Importance, fields: Fields, cells: Indices) -> tuple[Indices, Array]:
@@ -453,4 +294,5 @@ def _in_pose_space(importance: Importance, fields: Fields, free: Indices) -> Can
         if not near.any():
             kept.append(int(i))
     chosen = np.array(kept, dtype=np.intp)
-    return Candidates(grid.points[free[cell[chosen]]], 2 * np.pi * b[chosen] / bins)
+    place = grid.points[free[cell[chosen]]]
+    return Candidates(place, 2 * np.pi * b[chosen] / bins, strength[chosen].astype(np.float64))

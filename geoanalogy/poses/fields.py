@@ -1,6 +1,6 @@
 """The fields of all relations over a polygon: values on a grid that depend on the scene alone (section 4.5)."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -94,15 +94,19 @@ class Sheets:
         """Memory held, in bytes."""
         return sum(v.nbytes for v in self._kept.values()) + sum(v.nbytes for v in self._covered.values())
 
-    def evaluate(self, polygons: Sequence[Polygon], relations: Sequence[Positional]) -> None:
+    def evaluate(
+        self, polygons: Sequence[Polygon], relations: Sequence[Positional], directions: Collection[Positional]
+    ) -> None:
         """Evaluate relations to polygons that are not there yet, all together: they share what the points see.
 
         Parameters
         ----------
         polygons : sequence of Polygon
         relations : sequence of Positional
+        directions : collection of Positional
+            Those of them whose directional partners are evaluated too.
         """
-        names = [r.name for r in relations]
+        names = [r.name for r in relations] + [r.directional.name for r in directions if r.directional is not None]
         missing = [p for p in polygons if any((n, p.content) not in self._done for n in names)]
         if not missing:
             return
@@ -120,7 +124,7 @@ class Sheets:
                 slope = np.broadcast_to(relation.slope(seen), value.shape)
                 reach = np.divide(1.0, slope, out=np.full(value.shape, FAR), where=slope > 0)
                 self._write(f"{relation.name} reach", relation.element, mine, np.minimum(reach, FAR))
-            if relation.directional is not None:
+            if relation.directional is not None and relation in directions:
                 self._write(relation.directional.name, relation.element, mine, relation.directional.reference(seen))
         self._done.update((n, p.content) for n in names for p in missing)
 
@@ -195,37 +199,42 @@ class Fields:
         self.grid = sheets.grid
         self._polygons = polygons
         self._sheets = sheets
-        #: Fields by name, and the rows of the arrangement's features in them.
-        self._rows: dict[str, tuple[Array32, Indices]] = {}
+        #: Fields by name, and the rows of the arrangement's features in those of their type.
+        self._kept: dict[str, Array32] = {}
+        self._features: dict[ElementType, Indices] = {}
 
-    def evaluate(self, relations: Iterable[Positional]) -> None:
+    def evaluate(self, relations: Iterable[Positional], directions: Collection[Positional] | None = None) -> None:
         """Evaluate relations that are not there yet.
 
         Parameters
         ----------
         relations : iterable of Positional
+        directions : collection of Positional, optional
+            Those of them whose directional partners are evaluated too; None: all.
         """
-        wanted = [r for r in dict.fromkeys(relations) if f"{r.name} value" not in self._rows]
-        if not wanted:
+        wanted = list(dict.fromkeys(relations))
+        turned = [r for r in wanted if r.directional is not None and (directions is None or r in directions)]
+        names = {f"{r.name} value" for r in wanted} | {r.directional.name for r in turned if r.directional is not None}
+        if names <= self._kept.keys():
             return
-        self._sheets.evaluate(self._polygons, wanted)
+        self._sheets.evaluate(self._polygons, wanted, turned)
         for element in {r.element for r in wanted}:
-            rows = self._sheets.rows(element, self._polygons)
+            self._features[element] = self._sheets.rows(element, self._polygons)
             for relation in (r for r in wanted if r.element is element):
-                names = [f"{relation.name} value"]
+                names = {f"{relation.name} value"}
                 if relation.kind is not Kind.LENGTH:
-                    names.append(f"{relation.name} reach")
-                if relation.directional is not None:
-                    names.append(relation.directional.name)
-                self._rows.update((name, (self._sheets[name], rows)) for name in names)
+                    names.add(f"{relation.name} reach")
+                if relation.directional is not None and relation in turned:
+                    names.add(relation.directional.name)
+                self._kept.update((name, self._sheets[name]) for name in names)
 
-    def value(self, relation: Positional, feature: Indices, where: Indices) -> Array32:
-        """The relation's value.
+    def index(self, element: ElementType, feature: Indices, where: Indices) -> Indices:
+        """Where the values of features at grid points are kept.
 
         Parameters
         ----------
-        relation : Positional
-            Evaluated.
+        element : ElementType
+            Of which relations are evaluated.
         feature : ndarray of shape (k,), int
             Of the arrangement.
         where : ndarray of shape (k, n) or (n,), int
@@ -233,55 +242,64 @@ class Fields:
 
         Returns
         -------
-        ndarray of shape (k, n), float32
+        ndarray of shape (k, n), int
         """
-        return self._gather(f"{relation.name} value", feature, where)
+        index: Indices = (self._features[element][feature] * len(self.grid))[:, None] + where
+        return index
 
-    def reach(self, relation: Positional, feature: Indices, where: Indices) -> Array32:
+    def value(self, relation: Positional, index: Indices) -> Array32:
+        """The relation's value.
+
+        Parameters
+        ----------
+        relation : Positional
+            Evaluated.
+        index : ndarray of int
+            Of features of the relation's type.
+
+        Returns
+        -------
+        ndarray of the same shape, float32
+        """
+        return self._kept[f"{relation.name} value"].ravel().take(index)
+
+    def reach(self, relation: Positional, index: Indices) -> Array32:
         """Distance in the plane per unit of value: the inverse of the slope.
 
         Parameters
         ----------
         relation : Positional
             Evaluated, whose values are no lengths.
-        feature : ndarray of shape (k,), int
-        where : ndarray of shape (k, n) or (n,), int
+        index : ndarray of int
 
         Returns
         -------
-        ndarray of shape (k, n), float32
+        ndarray of the same shape, float32
         """
-        return self._gather(f"{relation.name} reach", feature, where)
+        return self._kept[f"{relation.name} reach"].ravel().take(index)
 
-    def direction(self, relation: Positional, feature: Indices, where: Indices) -> Array32:
+    def direction(self, relation: Positional, index: Indices) -> Array32:
         """Reference direction of the relation's directional partner, radians.
 
         Parameters
         ----------
         relation : Positional
             Evaluated, with a directional partner.
-        feature : ndarray of shape (k,), int
-        where : ndarray of shape (k, n) or (n,), int
+        index : ndarray of int
 
         Returns
         -------
-        ndarray of shape (k, n), float32
+        ndarray of the same shape, float32
         """
         assert relation.directional is not None
-        return self._gather(relation.directional.name, feature, where)
-
-    def _gather(self, name: str, feature: Indices, where: Indices) -> Array32:
-        kept, rows = self._rows[name]
-        # Twice as fast as indexing with both.
-        return kept.ravel().take((rows[feature] * len(self.grid))[:, None] + where)
+        return self._kept[relation.directional.name].ravel().take(index)
 
     @cached_property
     def boundary_distance(self) -> Array32:
         """Distance of each point from each polygon's boundary; shape (polygons, points)."""
         relation = RELATIONS["boundary distance"]
         self.evaluate([relation])
-        kept, rows = self._rows[f"{relation.name} value"]
-        return kept[rows]
+        return self._kept[f"{relation.name} value"][self._features[ElementType.POLYGON]]
 
     def covered(self, polygon: int) -> NDArray[np.bool_]:
         """Whether a polygon of the arrangement covers each point; shape (points,).

@@ -1,7 +1,6 @@
 """Which features of an arrangement answer to which of the example's, and how well (sections 4.4, 4.6 and 4.8)."""
 
 import enum
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -211,29 +210,6 @@ class Answers:
         """
         possible = self.accuracy * np.add.reduceat(self.weight.sum(axis=0), self.pair_start)
         return self._take(np.flatnonzero(possible >= share * possible.max()))
-
-    def blocks(self, most: int) -> Iterator["Answers"]:
-        """The same in parts of whole source features, so that what is accumulated per entry fits into memory.
-
-        Parameters
-        ----------
-        most : int
-            Entries in a part, where a source feature alone has not more.
-
-        Yields
-        ------
-        Answers
-        """
-        if len(self.target) <= most:
-            yield self
-            return
-        ends = np.append(self.feature_start[1:], len(self.accuracy))
-        entries = np.append(self.pair_start, len(self.target))[ends]
-        start = 0
-        for i, end in enumerate(ends):
-            if i + 1 == len(ends) or entries[i + 1] - np.append(self.pair_start, 0)[start] > most:
-                yield self._take(np.arange(start, end))
-                start = int(end)
 
     def _take(self, pairs: Indices) -> "Answers":
         size = np.diff(np.append(self.pair_start, len(self.target)))

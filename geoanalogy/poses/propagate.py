@@ -14,8 +14,9 @@ from ..progress import Progress, Stepper, run
 from ..relations.table import RELATIONS
 from ..tolerances import CONTAINED_SHARE
 from .arrangement import Arrangement, arrangement_of
-from .candidates import FOOTPRINT_SLACK, Candidates, find_candidates
+from .candidates import Candidates, find_candidates
 from .fields import Fields
+from .footprint_candidates import SLACK, directions_read, find_footprint_candidates
 from .importance import Importance
 from .kernels import wrap
 from .matching import Sense, senses
@@ -194,16 +195,18 @@ class PoseModel:
     def _candidates_in(self, target: Arrangement, spacing: float) -> Iterator[tuple[Importance, Candidates]]:
         """Where to look in an arrangement, for every sense and scale."""
         for importance in self.importances(target):
-            slack = FOOTPRINT_SLACK * importance.width
+            slack = SLACK * importance.width
             share = 1.0 if self._validation.may_jut_out else 2 * JUTTING_SHARE
             margin = share * float(np.hypot(*importance.samples.T).max())
             fields = self._fields(target, spacing, margin)
             # Together with what the validation asks for: all relations share what the grid's points see.
-            fields.evaluate((RELATIONS["boundary distance"], *importance.relations))
+            relations = (RELATIONS["boundary distance"], *importance.relations)
+            fields.evaluate(relations, directions_read(importance) if self.query.rigid else None)
             blocked = self._validation.blocked(target, fields, slack)
             # The example would outshine the other places of its room.
             taken = self._is_example(target, fields.grid.points, importance.mirrored)
-            candidates = find_candidates(importance, fields, blocked, taken)
+            find = find_footprint_candidates if self.query.rigid else find_candidates
+            candidates = find(importance, fields, blocked, taken)
             if len(candidates.angle):
                 yield importance, candidates
 
@@ -218,7 +221,7 @@ class PoseModel:
         """What the candidates of some arrangements lead to."""
         importances = [importance for importance, _ in tried]
         factor = np.array([1.0 if i.scale == 1.0 else SCALED_FACTOR for i in importances])
-        refined = refine(importances, [candidates for _, candidates in tried], factor.tolist())
+        refined = refine(importances, [candidates for _, candidates in tried], factor.tolist(), self._stands)
         found: dict[Arrangement, list[tuple[float, Array, float, Importance]]] = {}
         for k, importance in enumerate(importances):
             target, turned = importance.target, importance.mirrored
@@ -236,6 +239,11 @@ class PoseModel:
             order = self._ranked(np.array(value), mirrored, np.array(angle), [target.parent] * len(of))
             results += self._apart(target, [places[i] for i in order])
         return results
+
+    def _stands(self, importance: Importance, position: Array, angle: Array, slack: float) -> NDArray[np.bool_]:
+        """Whether poses that move no further than `slack`, in half-widths of level sets, may be accepted."""
+        i = importance
+        return ~self._validation.hopeless(i.target, position, angle, i.mirrored, i.scale, slack * i.width)
 
     def _ranked(self, importance: Array, mirrored: Sequence[bool], angle: Array, parents: Sequence[Polygon]) -> Indices:
         """Best first; of equals, the object as it is before its mirror image, the least turned one first."""

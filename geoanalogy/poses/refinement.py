@@ -1,7 +1,7 @@
 """Candidates moved onto the exact maximum: a result must not move when the grid does (section 4.5)."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,7 @@ from .batch import Batch, Misses, Rows
 from .candidates import Candidates
 from .importance import Importance
 from .kernels import WIDE_SHARE, WIDE_WIDTH
+from .rivals import Refined, Rivals, Stands
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -18,12 +19,18 @@ Indices = NDArray[np.intp]
 SETTLED = 1e-4
 ITERATIONS = 6
 
-#: The number of results per parent that the numbers kept below are meant for; where more are wanted, more are kept.
-PER_PARENT = 12
-
-#: Candidates kept after an iteration, by its number: at the most so many, within this share of the best importance.
-#: Falling behind early says little, falling behind late is final.
+#: Candidates of an arrangement kept after an iteration, by its number: at the most so many for each of its senses and
+#: scales, within this share of the best importance. Falling behind early says little, falling behind late is final.
 KEPT = {0: (24, 0.25), 1: (20, 0.35), 2: (16, 0.4), 3: (12, 0.4)}
+
+#: From this iteration on candidates of different senses at one place count as the same: before, the one that is worth
+#: less there may still become the better one.
+ACROSS_SENSES = 2
+
+#: How far candidates still move, in half-widths of level sets: at first, and once the last have been dropped. Of the
+#: best results nineteen in twenty began nearer than 1.25.
+SLACK_AT_FIRST = 1.25
+SLACK_AT_LAST = 0.5
 
 #: Pairs of features that can contribute less than this share of the strongest one do not pull at poses.
 STRONG = 0.05
@@ -33,9 +40,6 @@ STRONG = 0.05
 SEARCHING = (6.0, 2.0)
 SETTLING = (1.0, 0.5)
 
-#: Candidates nearer than this, in half-widths of level sets, have come to the same maximum.
-SAME_MAXIMUM = 0.1
-
 #: Misses below this share of the width count as met when they are weighted: keeps the weights finite. Sharper with
 #: every iteration.
 MET = 0.6
@@ -44,74 +48,27 @@ SHARPER = 0.3
 #: Steps to less than this share of the best importance are taken back.
 FALL = 0.7
 
-#: Leading candidates around which is looked for better places, and how far, in half-widths. Where samples disagree the
-#: importance has plateaus with narrow peaks; least squares settle anywhere on them. And the iterations that follow.
+#: Leading candidates of an arrangement, for each of its senses and scales, around which is looked for better places,
+#: and how far, in half-widths. Where samples disagree the importance has plateaus with narrow peaks; least squares
+#: settle anywhere on them. And the iterations that follow.
 PROBED = 4
 PROBES = (0.15, 0.4, 1.0, 2.0)
 AGAIN = range(2, ITERATIONS + 1)
 
-#: Leading poses that go on uphill along position and direction, if they come near the best by this share; their steps
-#: at first, in half-widths, and how many there are: least squares may stop short of a narrow peak.
-CLIMBING = 4
+#: Leading poses of an arrangement, for each of its senses and scales, that go on uphill along position and direction,
+#: if they come near the best by this share; their steps at first, in half-widths, and how many there are: least squares
+#: may stop short of a narrow peak.
+CLIMBING = 2
 EQUALLY_GOOD = 0.98
 FARTHEST_CLIMB = 0.1
 CLIMBS = 8
 
 
-@dataclass(frozen=True)
-class Refined:
-    """Poses at maxima of the importance.
-
-    Attributes
-    ----------
-    which : ndarray of shape (k,), int
-        The number of each pose's importance, ascending.
-    position : ndarray of shape (k, 2)
-    angle, value : ndarray of shape (k,)
-        Direction in radians, and importance.
-    """
-
-    which: Indices
-    position: Array
-    angle: Array
-    value: Array
-
-    def of(self, chosen: Indices | NDArray[np.bool_]) -> "Refined":
-        """Some of the poses.
-
-        Parameters
-        ----------
-        chosen : ndarray of int or bool
-
-        Returns
-        -------
-        Refined
-        """
-        return Refined(self.which[chosen], self.position[chosen], self.angle[chosen], self.value[chosen])
-
-    def bettered(self, position: Array, angle: Array, value: Array) -> "Refined":
-        """Each pose, or the one offered in its place where that is worth more.
-
-        Parameters
-        ----------
-        position : ndarray of shape (k, 2)
-        angle, value : ndarray of shape (k,)
-
-        Returns
-        -------
-        Refined
-        """
-        better = value > self.value
-        return Refined(
-            self.which,
-            np.where(better[:, None], position, self.position),
-            np.where(better, angle, self.angle),
-            np.maximum(self.value, value),
-        )
-
-
 def refine(
-    importances: Sequence[Importance], candidates: Sequence[Candidates], factor: Sequence[float] | None = None
+    importances: Sequence[Importance],
+    candidates: Sequence[Candidates],
+    factor: Sequence[float] | None = None,
+    stands: Stands | None = None,
 ) -> Refined:
     """Move poses to the nearby maximum of the importance, in many arrangements at once.
 
@@ -127,6 +84,8 @@ def refine(
         Of each importance.
     factor : sequence of float, optional
         What the importances are multiplied by before those of an arrangement are compared.
+    stands : callable, optional
+        Which poses may be accepted; None: all. The others are dropped where better ones are left.
 
     Returns
     -------
@@ -135,73 +94,23 @@ def refine(
     count = [len(c.angle) for c in candidates]
     if not sum(count):
         return Refined(np.zeros(0, dtype=np.intp), np.zeros((0, 2)), np.zeros(0), np.zeros(0))
-    which = np.repeat(np.arange(len(importances)), count)
     start = Refined(
-        which,
+        np.repeat(np.arange(len(importances)), count),
         np.concatenate([c.position for c in candidates]),
         np.concatenate([c.angle for c in candidates]),
-        np.full(len(which), -1.0),
+        np.concatenate([c.strength for c in candidates]),
     )
     strong = Batch(importances, STRONG)
-    rivals = _Rivals(strong, np.ones(len(importances)) if factor is None else np.array(factor))
+    rivals = Rivals(importances, strong, np.ones(len(importances)) if factor is None else np.array(factor), stands)
+    start = start.of(rivals.standing(start, SLACK_AT_FIRST))
+    start = replace(start, value=np.full(len(start.which), -1.0))
     found = _descend(strong, start, range(ITERATIONS + 1), rivals)
-    found = _climb(strong, _probe(strong, found))
+    found = _climb(strong, _probe(strong, found, rivals), rivals)
     value = Batch(importances).importance(found.which, found.position, found.angle)
     return Refined(found.which, found.position, found.angle, value)
 
 
-class _Rivals:
-    """Which candidates stand against one another: those of one arrangement, in every sense and at every scale."""
-
-    def __init__(self, batch: Batch, factor: Array) -> None:
-        self._arrangement = batch.arrangement
-        self._factor = factor
-        self._unit = batch.unit
-        self._candidates = max(PER_PARENT, batch.query.options.candidates)
-
-    def leading(self, poses: Refined, most: int, share: float) -> Indices:
-        """The best candidates of each importance, one per maximum; in the order of the poses."""
-        value = poses.value * self._factor[poses.which]
-        top = np.zeros(self._arrangement.max() + 1)
-        np.maximum.at(top, self._arrangement[poses.which], value)
-        good = np.flatnonzero(value >= share * top[self._arrangement[poses.which]])
-        table = in_turn(poses.which[good], poses.value[good])
-        unit = self._unit[poses.which[good]]
-        facing = np.column_stack([np.cos(poses.angle[good]), np.sin(poses.angle[good])]) / unit[:, 2:]
-        place = np.column_stack([poses.position[good] / unit[:, :2], facing])
-        # One that has a better one beside it is the same.
-        place = np.where(table[..., None] >= 0, place[table], np.nan)
-        near = np.abs(place[:, :, None] - place[:, None]).max(axis=3) < SAME_MAXIMUM
-        alone = ~np.tril(near, -1).any(axis=2) & (table >= 0)
-        kept = alone & (np.cumsum(alone, axis=1) <= most * self._candidates // PER_PARENT)
-        return np.sort(good[table[kept]])
-
-
-def in_turn(which: Indices, value: Array) -> Indices:
-    """Numbers of poses by importance, the best first.
-
-    Parameters
-    ----------
-    which : ndarray of shape (m,), int
-        Ascending.
-    value : ndarray of shape (m,)
-
-    Returns
-    -------
-    ndarray of shape (importances that have poses, most poses of one), int
-        Padded with -1.
-    """
-    order = np.lexsort((-value, which))
-    changes = np.append(True, np.diff(which) != 0)
-    row = np.cumsum(changes) - 1
-    start = np.flatnonzero(changes)
-    place = np.arange(len(which)) - start[row]
-    table = np.full((len(start), int(place.max(initial=-1)) + 1), -1, dtype=np.intp)
-    table[row, place] = order
-    return table
-
-
-def _descend(batch: Batch, poses: Refined, iterations: range, rivals: _Rivals | None = None) -> Refined:
+def _descend(batch: Batch, poses: Refined, iterations: range, rivals: Rivals | None = None) -> Refined:
     """The best poses met in iterations of reweighted least squares, and their importance.
 
     Without rivals all are kept.
@@ -227,7 +136,9 @@ def _descend(batch: Batch, poses: Refined, iterations: range, rivals: _Rivals | 
         position = np.where(fell, best.position, position) + step[:, :2]
         angle = np.where(fell[:, 0], best.angle, angle) + step[:, 2]
         if iteration in KEPT and rivals is not None:
-            kept = rivals.leading(best, *KEPT[iteration])
+            kept = rivals.leading(best, *KEPT[iteration], across=iteration >= ACROSS_SENSES)
+            if iteration == max(KEPT):
+                kept = kept[rivals.standing(best.of(kept), SLACK_AT_LAST)]
             if len(kept) < len(angle):
                 position, angle, best, best_step = position[kept], angle[kept], best.of(kept), best_step[kept]
                 own = own[kept]
@@ -239,9 +150,9 @@ def _descend(batch: Batch, poses: Refined, iterations: range, rivals: _Rivals | 
     return best
 
 
-def _probe(batch: Batch, poses: Refined) -> Refined:
+def _probe(batch: Batch, poses: Refined, rivals: Rivals) -> Refined:
     """Look around the leading poses for better ones, and go on from those."""
-    table = in_turn(poses.which, poses.value)[:, :PROBED]
+    table = rivals.in_turn(poses, PROBED)
     lead = np.sort(table[table >= 0])
     leading = poses.of(lead)
     c, s = np.cos(leading.angle), np.sin(leading.angle)
@@ -265,10 +176,10 @@ def _probe(batch: Batch, poses: Refined) -> Refined:
     return Refined(poses.which, position, angle, value)
 
 
-def _climb(batch: Batch, poses: Refined) -> Refined:
+def _climb(batch: Batch, poses: Refined, rivals: Rivals) -> Refined:
     """Move the leading poses uphill in ever smaller steps."""
-    table = in_turn(poses.which, poses.value)[:, :CLIMBING]
-    value = np.where(table >= 0, poses.value[table], -1.0)
+    table = rivals.in_turn(poses, CLIMBING)
+    value = np.where(table >= 0, rivals.worth(poses)[table], -1.0)
     # Those that may turn out to be as good as the best are equally well served.
     lead = np.sort(table[value >= EQUALLY_GOOD * value[:, :1]])
     best = poses.of(lead)

@@ -18,6 +18,9 @@ Array = NDArray[np.float64]
 #: Share of the footprint that may jut out of the parent beyond what the example's does.
 JUTTING_SHARE = 0.03
 
+#: Share of the footprint's width and height that is left at the least where a margin is taken off all around it.
+LEAST_CORE = 0.1
+
 
 class Validation:
     """What poses of an object may intersect: the labels that the example intersects, and no others.
@@ -122,17 +125,59 @@ class Validation:
         """
         if self._footprint is None or not self._options.validate:
             return shapely.intersects_xy(target.parent.shape, *position.T)  # type: ignore[no-any-return]
-        ring = self._footprint * scale * ((1.0, -1.0) if mirrored else (1.0, 1.0))
-        c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
-        x = position[:, :1] + c * ring[:, 0] - s * ring[:, 1]
-        y = position[:, 1:] + s * ring[:, 0] + c * ring[:, 1]
-        outlines = shapely.polygons(np.stack([x, y], axis=-1))
+        outlines = self._outlines(self._footprint, position, angle, mirrored, scale)
         area = shapely.area(outlines)
         inside = shapely.area(shapely.intersection(outlines, target.parent.shape)) / area
         accepted: NDArray[np.bool_] = inside >= self._at_example[0] - JUTTING_SHARE
         for _, member in self.obstacles(target):
             accepted &= ~_intersects(outlines, self._obstacle(member))
         return accepted
+
+    def hopeless(
+        self, target: Arrangement, position: Array, angle: Array, mirrored: bool, scale: float, slack: float
+    ) -> NDArray[np.bool_]:
+        """Which poses would have to move further than `slack` to be accepted.
+
+        Parameters
+        ----------
+        target : Arrangement
+        position : ndarray of shape (m, 2)
+        angle : ndarray of shape (m,)
+        mirrored : bool
+        scale : float
+            Of the footprint.
+        slack : float
+            Scene units.
+
+        Returns
+        -------
+        ndarray of shape (m,), bool
+        """
+        hopeless = np.zeros(len(angle), dtype=bool)
+        if self._footprint is None or not self._options.validate or not len(angle):
+            return hopeless
+        # The object without a margin all around: what that still hits is hit so deeply.
+        low, high = self._footprint.min(axis=0), self._footprint.max(axis=0)
+        middle, extent = (low + high) / 2, (high - low) / 2
+        core = np.maximum(1 - slack / scale / extent, LEAST_CORE)
+        outlines = self._outlines(middle + core * (self._footprint - middle), position, angle, mirrored, scale)
+        if not self.may_jut_out:
+            shapely.prepare(target.parent.shape)
+            hopeless |= ~shapely.covers(target.parent.shape, outlines)
+        for _, member in self.obstacles(target):
+            obstacle = self._obstacle(member)
+            shapely.prepare(obstacle)
+            hopeless |= shapely.intersects(obstacle, outlines)
+        return hopeless
+
+    @staticmethod
+    def _outlines(ring: Array, position: Array, angle: Array, mirrored: bool, scale: float) -> NDArray[np.object_]:
+        """A ring in the pose's frame, at every pose."""
+        ring = ring * scale * ((1.0, -1.0) if mirrored else (1.0, 1.0))
+        c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
+        x = position[:, :1] + c * ring[:, 0] - s * ring[:, 1]
+        y = position[:, 1:] + s * ring[:, 0] + c * ring[:, 1]
+        return shapely.polygons(np.stack([x, y], axis=-1))  # type: ignore[no-any-return]
 
 
 def _intersects(outlines: NDArray[np.object_], obstacle: shapely.Geometry) -> NDArray[np.bool_]:

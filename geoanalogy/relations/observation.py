@@ -1,8 +1,8 @@
 """What points see of elements: nearest places, distances and directions, evaluated once and shared by all relations."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, Protocol
 
 import numpy as np
 import shapely
@@ -15,37 +15,133 @@ Array = NDArray[np.float64]
 Directions = NDArray[np.complex128]
 
 
-@dataclass(frozen=True)
-class Nearest:
-    """The boundary place nearest to each point, per segment or polygon.
+class Nearest(Protocol):
+    """The boundary place nearest to each point, per segment or polygon; all shapes are (elements, points)."""
 
-    Attributes
+    @property
+    def distance(self) -> Array:
+        """In scene units, not negative."""
+
+    @property
+    def arc(self) -> Array:
+        """Arc length from the start of the segment (or of the ring) to the place."""
+
+    @property
+    def tangent(self) -> Array:
+        """Direction of the boundary there, radians.
+
+        At a vertex, where the boundary has two, it is the one at right angles to the way to the point: it turns
+        steadily from the first to the second as the point goes round the vertex.
+        """
+
+    @property
+    def between(self) -> NDArray[np.bool_]:
+        """Whether the place lies inside an edge, where moving the point along the boundary moves the place as far.
+
+        At a vertex it stays.
+        """
+
+    @property
+    def edge(self) -> NDArray[np.intp]:
+        """Index of the edge that the place is on."""
+
+    @property
+    def left(self) -> NDArray[np.bool_]:
+        """Whether the point lies to the left of the boundary there: on the interior's side."""
+
+    @property
+    def across(self) -> Array:
+        """Signed distance of the point from the straight line through that edge, positive to the left."""
+
+
+class NearestOfAll:
+    """The boundary places of every element nearest to every point.
+
+    As `Nearest` says; what is derived from the places is evaluated at the first use: fields of distances need no
+    directions.
+
+    Parameters
     ----------
-    distance : ndarray of shape (elements, points)
-        In scene units, not negative.
-    arc : ndarray of shape (elements, points)
-        Arc length from the start of the segment (or of the ring) to the place.
-    tangent : ndarray of shape (elements, points)
-        Direction of the boundary there, radians. At a vertex, where the boundary has two, it is the one at right angles
-        to the way to the point: it turns steadily from the first to the second as the point goes round the vertex.
-    between : ndarray of shape (elements, points), bool
-        Whether the place lies inside an edge, where moving the point along the boundary moves the place as far; at a
-        vertex it stays.
-    edge : ndarray of shape (elements, points), int
-        Index of the edge that the place is on.
-    left : ndarray of shape (elements, points), bool
-        Whether the point lies to the left of the boundary there: on the interior's side.
-    across : ndarray of shape (elements, points)
-        Signed distance of the point from the straight line through that edge, positive to the left.
+    elements : Elements
+    points : ndarray of shape (n, 2)
+    edge : ndarray of shape (elements, n), int
+    along : ndarray of shape (elements, n)
+        Length from the start of the edge to the place.
+    distance : ndarray of shape (elements, n)
+    offset : ndarray of shape (edges,)
+        Arc length from the start of the segment (or of the ring) to each edge.
+    ends : ndarray of shape (edges, 2), bool
+        At which of its vertices an edge has no neighbour in its segment.
     """
 
-    distance: Array
-    arc: Array
-    tangent: Array
-    between: NDArray[np.bool_]
-    edge: NDArray[np.intp]
-    left: NDArray[np.bool_]
-    across: Array
+    def __init__(
+        self,
+        elements: Elements,
+        points: Array,
+        edge: NDArray[np.intp],
+        along: Array,
+        distance: Array,
+        offset: Array,
+        ends: NDArray[np.bool_],
+    ) -> None:
+        self.edge = edge
+        self.distance = distance
+        self._elements = elements
+        self._points = points
+        self._along = along
+        self._offset = offset
+        self._ends = ends
+
+    def _of_edges(self, values: NDArray[Any]) -> NDArray[Any]:
+        """A value of each place's edge."""
+        # Straight segments are an edge each.
+        return values[self.edge[:, :1]] if self.edge.strides[1] == 0 else values[self.edge]
+
+    @cached_property
+    def arc(self) -> Array:
+        """As `Nearest` says."""
+        return self._along + self._of_edges(self._offset)
+
+    @cached_property
+    def between(self) -> NDArray[np.bool_]:
+        """As `Nearest` says."""
+        return (self._along > 0) & (self._along < self._of_edges(self._elements.edge_length))
+
+    @cached_property
+    def _round_vertices(self) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+        """Element and point of the places at vertices that two edges share; the edge, and which of its ends it is."""
+        end = (self._along > 0).astype(np.intp)
+        row, point = np.nonzero(~self.between & (self.distance > 0) & ~self._ends[self.edge, end])
+        return row, point, self.edge[row, point], end[row, point]
+
+    @cached_property
+    def tangent(self) -> Array:
+        """As `Nearest` says."""
+        e = self._elements
+        tangent = e.edge_heading[self.edge]
+        row, point, edge, end = self._round_vertices
+        way = self._points[point] - e.edge_start[edge] - end[:, None] * e.edge_vector[edge]
+        # Points nearest to a vertex lie on the outer side of its turn.
+        side = np.where(e.edge_turns[edge, end] > 0, np.pi / 2, -np.pi / 2)
+        tangent[row, point] = np.arctan2(way[:, 1], way[:, 0]) + side
+        return tangent
+
+    @cached_property
+    def across(self) -> Array:
+        """As `Nearest` says."""
+        e = self._elements
+        across = self._of_edges(e.edge_direction.real) * (self._points[:, 1] - self._of_edges(e.edge_start[:, 1]))
+        across -= self._of_edges(e.edge_direction.imag) * (self._points[:, 0] - self._of_edges(e.edge_start[:, 0]))
+        return across
+
+    @cached_property
+    def left(self) -> NDArray[np.bool_]:
+        """As `Nearest` says."""
+        left = self.across >= -ZERO_LENGTH * self._of_edges(self._elements.edge_length)
+        # Round a vertex the two edges may disagree; there the points lie on the outer side of its turn.
+        row, point, edge, end = self._round_vertices
+        left[row, point] = self._elements.edge_turns[edge, end] <= 0
+        return left
 
 
 class Observation:
@@ -76,37 +172,18 @@ class Observation:
 
     def _nearest(self, group: NDArray[np.intp], count: int, offset: Array, ends: NDArray[np.bool_]) -> Nearest:
         along, distance = self._edges
-        e = self.elements
         n = len(self.points)
-        if not count:
-            empty = np.zeros((0, n))
-            return Nearest(empty, empty, empty, empty.astype(bool), empty.astype(np.intp), empty.astype(bool), empty)
         if len(group) == count:  # one edge each: straight segments
-            best = np.broadcast_to(np.arange(count)[:, None], (count, n))
+            edge = np.broadcast_to(np.arange(count)[:, None], (count, n))
         else:
             first = np.searchsorted(group, np.arange(count))
-            best = np.empty((count, n), dtype=np.intp)
+            edge = np.empty((count, n), dtype=np.intp)
             last = np.append(first[1:], len(group))
             for k in range(count):
-                best[k] = first[k] + np.argmin(distance[first[k] : last[k]], axis=0)
-        column = np.arange(n)
-        place = along[best, column]
-        between = (place > 0) & (place < e.edge_length[best])
-        tangent = e.edge_heading[best]
-        distance = distance[best, column]
-        end = (place > 0).astype(np.intp)
-        row, point = np.nonzero(~between & (distance > 0) & ~ends[best, end])
-        edge, end = best[row, point], end[row, point]
-        way = self.points[point] - e.edge_start[edge] - end[:, None] * e.edge_vector[edge]
-        # Points nearest to a vertex lie on the outer side of its turn.
-        side = np.where(e.edge_turns[edge, end] > 0, np.pi / 2, -np.pi / 2)
-        tangent[row, point] = np.arctan2(way[:, 1], way[:, 0]) + side
-        across = e.edge_direction.real[best] * (self.points[:, 1] - e.edge_start[best, 1])
-        across -= e.edge_direction.imag[best] * (self.points[:, 0] - e.edge_start[best, 0])
-        # Round a vertex the two edges may disagree; there the points lie on the outer side of its turn.
-        left = across >= -ZERO_LENGTH * e.edge_length[best]
-        left[row, point] = e.edge_turns[edge, end] <= 0
-        return Nearest(distance, place + offset[best], tangent, between, best, left, across)
+                edge[k] = first[k] + np.argmin(distance[first[k] : last[k]], axis=0)
+            column = np.arange(n)
+            along, distance = along[edge, column], distance[edge, column]
+        return NearestOfAll(self.elements, self.points, edge, along, distance, offset, ends)
 
     @cached_property
     def segment(self) -> Nearest:
@@ -176,6 +253,14 @@ class Observation:
         x = self.points[:, 0] - v[:, :1]
         y = self.points[:, 1] - v[:, 1:]
         return np.hypot(x, y), np.arctan2(y, x)
+
+    @cached_property
+    def corner_turn(self) -> Array:
+        """Angle from each corner's first edge to the way to each point, 0 to a full turn; shape (corners, points)."""
+        turn = self.elements.corner_before[:, None] - self.corner[1]
+        # Several times as fast as the remainder.
+        turn -= 2 * np.pi * np.floor(turn / (2 * np.pi))
+        return turn
 
     @cached_property
     def from_corner(self) -> Directions:

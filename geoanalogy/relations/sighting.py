@@ -12,15 +12,24 @@ from .observation import Array, Directions, Nearest, Observation
 
 
 @dataclass(frozen=True)
-class NearestOfOne(Nearest):
+class NearestOfOne:
     """The boundary place of one element nearest to one point, for many such pairs; all shapes are (n, 1).
 
     Attributes
     ----------
+    distance, arc, tangent, between, edge, left, across : ndarray of shape (n, 1)
+        As `Nearest` says.
     x, y : ndarray of shape (n,)
         The way from the place to the point, scene units.
     """
 
+    distance: Array
+    arc: Array
+    tangent: Array
+    between: NDArray[np.bool_]
+    edge: Indices
+    left: NDArray[np.bool_]
+    across: Array
     x: Array
     y: Array
 

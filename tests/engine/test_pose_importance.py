@@ -1,5 +1,7 @@
 """Importance: what the example asks, its weights, and the gradients that poses are refined with (sections 4.4, 4.5)."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 import strategies
@@ -17,6 +19,7 @@ from geoanalogy.poses.importance import Importance
 from geoanalogy.poses.matching import Sense, Symmetry, matching_accuracy, senses
 from geoanalogy.poses.query import CONTEXT, FOOTPRINT_REACH, Query, footprint_samples
 from geoanalogy.poses.refinement import refine
+from geoanalogy.poses.rivals import Refined, Rivals
 from geoanalogy.relations.elements import ElementType
 from geoanalogy.relations.observation import Observation
 from geoanalogy.relations.table import RELATIONS
@@ -275,13 +278,39 @@ def test_refinement_leads_back_to_the_example(footprint):
     importance = importance_of(scene_of(BEDROOM), BED_POSE, footprint)
     rng = np.random.default_rng(2)
     start = BED_POSE.position + rng.uniform(-1, 1, (8, 2)) * importance.width
-    refined = refine([importance], [Candidates(start, BED_POSE.angle + rng.uniform(-0.08, 0.08, 8))])
+    candidates = Candidates(start, BED_POSE.angle + rng.uniform(-0.08, 0.08, 8), np.ones(8))
+    refined = refine([importance], [candidates])
     position, angle, value = refined.position, refined.angle, refined.value
     best = int(np.argmax(value))
     assert value[best] == pytest.approx(1, abs=1e-4)
     assert position[best] == pytest.approx(np.array(BED_POSE.position), abs=1e-3 * np.sqrt(20))
     assert angle[best] == pytest.approx(BED_POSE.angle, abs=1e-3)
     assert value == pytest.approx(importance(position, angle))
+
+
+@pytest.mark.parametrize(("promise", "left"), [(0.5, [0, 2]), (0.9, [0, 1, 2])])
+def test_candidates_that_cannot_stand_are_left_out_unless_they_promise_most(promise, left):
+    importance = importance_of(scene_of(BEDROOM), BED_POSE, BED)
+    batch = Batch([importance])
+    rivals = Rivals([importance], batch, np.ones(1), lambda of, position, angle, slack: position[:, 0] > slack)
+    poses = Refined(np.zeros(3, dtype=np.intp), np.array([(3.0, 1), (1, 1), (4, 1)]), np.zeros(3), np.ones(3))
+    poses = dataclasses.replace(poses, value=np.array([0.8, promise, 0.4]))
+    assert rivals.standing(poses, 2.0).tolist() == left
+    assert Rivals([importance], batch, np.ones(1)).standing(poses, 2.0).tolist() == [0, 1, 2]
+
+
+@pytest.mark.parametrize(("across", "left"), [(False, [0, 1, 3]), (True, [0, 3])])
+def test_of_candidates_at_one_place_the_best_is_kept(across, left):
+    """The second is in the other sense, the third too low, the fourth elsewhere, the last one beside it."""
+    scene = scene_of(BEDROOM)
+    mirrored = Sense(True, (Symmetry.ACROSS,))
+    both = [importance_of(scene, BED_POSE, BED), importance_of(scene, BED_POSE, BED, sense=mirrored)]
+    rivals = Rivals(both, Batch(both), np.ones(2))
+    x = np.array([1, 1 + 0.05 * both[0].width, 2, 3, 3 + 0.05 * both[0].width])
+    poses = Refined(np.array([0, 1, 1, 1, 1]), np.column_stack([x, np.ones(5)]), np.zeros(5), np.zeros(5))
+    poses = dataclasses.replace(poses, value=np.array([0.9, 0.8, 0.1, 0.7, 0.6]))
+    assert rivals.leading(poses, 24, 0.25, across).tolist() == left
+    assert rivals.in_turn(poses, 1).tolist() == [[0, 1, -1, -1, -1]]
 
 
 def test_an_example_that_nothing_holds_is_worth_nothing():

@@ -12,8 +12,10 @@ from strategies import Similarity
 
 import geoanalogy as ga
 from geoanalogy import Polygon, Pose, PoseOptions, Scene, learn_pose, propagate_pose
+from geoanalogy.poses.arrangement import arrangement_of
 from geoanalogy.poses.propagate import SCALED_FACTOR, PoseModel
 from geoanalogy.poses.scatter import ScatterModel, ScatterOptions
+from geoanalogy.poses.validation import Validation
 
 NEXT_DOOR = Similarity(0.6, 1.0, (9.0, 1.0))
 ACCUMULATIONS = ("footprint", "plane", "pose space")
@@ -250,6 +252,20 @@ def test_results_intersect_nothing_that_the_example_does_not():
     assert overlap(free, BED, scene.polygon("b sofa")) > 0.2
     assert overlap(blocked, BED, scene.polygon("b sofa")) < 0.02
     assert blocked.importance < free.importance
+
+
+@pytest.mark.parametrize(("away", "expected"), [(0.0, False), (0.3, False), (0.5, True), (0.9, True)])
+def test_a_pose_is_hopeless_that_hits_something_deeper_than_it_may_move(away, expected):
+    """A bed 1.6 wide that reaches `away` into a wardrobe, or through a wall, and may move by 0.4."""
+    scene = Scene([Polygon(rectangle(8, 6), "room", "r"), Polygon(rectangle(2, 2, (5, 0)), "wardrobe", parent="r")])
+    model = learn_pose(scene, Pose((1.5, 3)), BED, PoseOptions())
+    target = arrangement_of(scene, scene.polygon("r"))
+    validation = Validation(target, model.pose, BED, model.options)
+    at_wardrobe, at_wall = np.array([[4 + away, 1]]), np.array([[3, 0.8 - away]])
+    for place in (at_wardrobe, at_wall):
+        assert validation.hopeless(target, place, np.zeros(1), False, 1.0, 0.4).tolist() == [expected]
+    free = Validation(target, model.pose, BED, dataclasses.replace(model.options, validate=False))
+    assert not free.hopeless(target, at_wall, np.zeros(1), False, 1.0, 0.4).any()
 
 
 def test_results_stay_inside_as_far_as_the_example_does():

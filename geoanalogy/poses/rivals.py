@@ -1,0 +1,210 @@
+"""Which candidates are worth going on with: those of one arrangement stand against one another."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .batch import Batch
+from .importance import Importance
+
+Array = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+Indices = NDArray[np.intp]
+
+#: The number of results per arrangement that numbers of candidates are meant for; where more are wanted, more are kept.
+PER_PARENT = 12
+
+#: Candidates nearer than this, in half-widths of level sets, have come to the same maximum.
+SAME_MAXIMUM = 0.1
+
+#: Which poses of an importance may be accepted, given their positions, their angles and how far they still move, in
+#: half-widths of level sets.
+Stands = Callable[[Importance, Array, Array, float], Bools]
+
+
+@dataclass(frozen=True)
+class Refined:
+    """Poses at maxima of the importance.
+
+    Attributes
+    ----------
+    which : ndarray of shape (k,), int
+        The number of each pose's importance, ascending.
+    position : ndarray of shape (k, 2)
+    angle, value : ndarray of shape (k,)
+        Direction in radians, and importance.
+    """
+
+    which: Indices
+    position: Array
+    angle: Array
+    value: Array
+
+    def of(self, chosen: Indices | Bools) -> "Refined":
+        """Some of the poses.
+
+        Parameters
+        ----------
+        chosen : ndarray of int or bool
+
+        Returns
+        -------
+        Refined
+        """
+        return Refined(self.which[chosen], self.position[chosen], self.angle[chosen], self.value[chosen])
+
+    def bettered(self, position: Array, angle: Array, value: Array) -> "Refined":
+        """Each pose, or the one offered in its place where that is worth more.
+
+        Parameters
+        ----------
+        position : ndarray of shape (k, 2)
+        angle, value : ndarray of shape (k,)
+
+        Returns
+        -------
+        Refined
+        """
+        better = value > self.value
+        return Refined(
+            self.which,
+            np.where(better[:, None], position, self.position),
+            np.where(better, angle, self.angle),
+            np.maximum(self.value, value),
+        )
+
+
+class Rivals:
+    """The candidates of several arrangements, in every sense and at every scale.
+
+    Parameters
+    ----------
+    importances : sequence of Importance
+        Those of one arrangement are neighbours.
+    batch : Batch
+        Of these importances.
+    factor : ndarray of shape (importances,)
+        What they are multiplied by before those of an arrangement are compared.
+    stands : callable, optional
+        Which poses may be accepted; None: all.
+    """
+
+    def __init__(
+        self, importances: Sequence[Importance], batch: Batch, factor: Array, stands: Stands | None = None
+    ) -> None:
+        self._importances = importances
+        self._arrangement = batch.arrangement
+        self._unit = batch.unit
+        self._factor = factor
+        self._stands = stands
+        #: Number of senses and scales of each arrangement.
+        self._ways = np.bincount(batch.arrangement)
+        self._candidates = max(PER_PARENT, batch.query.options.candidates)
+
+    def worth(self, poses: Refined) -> Array:
+        """What poses of one arrangement are compared by.
+
+        Parameters
+        ----------
+        poses : Refined
+
+        Returns
+        -------
+        ndarray of shape (k,)
+        """
+        return poses.value * self._factor[poses.which]
+
+    def _best(self, poses: Refined, value: Array) -> Array:
+        """The best value among the given poses of each arrangement, by its number."""
+        top = np.zeros(self._arrangement.max() + 1)
+        np.maximum.at(top, self._arrangement[poses.which], value)
+        return top
+
+    def in_turn(self, poses: Refined, most: int | None = None) -> Indices:
+        """Numbers of the poses of every arrangement that has any, the best first.
+
+        Parameters
+        ----------
+        poses : Refined
+        most : int, optional
+            Number of each arrangement, times that of its senses and scales; None: all.
+
+        Returns
+        -------
+        ndarray of shape (arrangements that have poses, most poses of one), int
+            Padded with -1.
+        """
+        room = self._arrangement[poses.which]
+        order = np.lexsort((-self.worth(poses), room))
+        changes = np.append(True, np.diff(room) != 0)
+        row = np.cumsum(changes) - 1
+        start = np.flatnonzero(changes)
+        place = np.arange(len(room)) - start[row]
+        table = np.full((len(start), int(place.max(initial=-1)) + 1), -1, dtype=np.intp)
+        table[row, place] = order
+        if most is not None:
+            table = np.where(np.arange(table.shape[1]) < most * self._ways[room[start]][:, None], table, -1)
+        return table
+
+    def standing(self, poses: Refined, slack: float) -> Indices:
+        """The candidates that may be accepted, and those that nothing as good may be accepted in place of.
+
+        Parameters
+        ----------
+        poses : Refined
+        slack : float
+            How far they still move, in half-widths of level sets.
+
+        Returns
+        -------
+        ndarray of int
+            In order.
+        """
+        if self._stands is None:
+            return np.arange(len(poses.which))
+        stands = np.ones(len(poses.which), dtype=bool)
+        for k in np.unique(poses.which):
+            mine = poses.which == k
+            stands[mine] = self._stands(self._importances[k], poses.position[mine], poses.angle[mine], slack)
+        value = self.worth(poses)
+        top = self._best(poses.of(stands), value[stands])
+        return np.flatnonzero(stands | (value > top[self._arrangement[poses.which]]))
+
+    def leading(self, poses: Refined, most: int, share: float, across: bool) -> Indices:
+        """The best candidates of each arrangement, one per maximum.
+
+        Parameters
+        ----------
+        poses : Refined
+        most : int
+            Number kept of an arrangement of which PER_PARENT results are wanted, times that of its senses and scales.
+        share : float
+            Of the arrangement's best value, below which none are kept.
+        across : bool
+            Whether candidates of different senses and scales at one place are the same as well.
+
+        Returns
+        -------
+        ndarray of int
+            In the order of the poses.
+        """
+        value = self.worth(poses)
+        top = self._best(poses, value)
+        good = np.flatnonzero(value >= share * top[self._arrangement[poses.which]])
+        table = self.in_turn(poses.of(good))
+        which = poses.which[good]
+        unit = self._unit[which]
+        facing = np.column_stack([np.cos(poses.angle[good]), np.sin(poses.angle[good])]) / unit[:, 2:]
+        place = np.column_stack([poses.position[good] / unit[:, :2], facing])
+        # One that has a better one beside it is the same.
+        place = np.where(table[..., None] >= 0, place[table], np.nan)
+        near = np.abs(place[:, :, None] - place[:, None]).max(axis=3) < SAME_MAXIMUM
+        if not across:
+            near &= which[table][:, :, None] == which[table][:, None]
+        alone = ~np.tril(near, -1).any(axis=2) & (table >= 0)
+        room = self._arrangement[which[table[:, 0]]]
+        wanted = most * self._candidates / PER_PARENT * self._ways[room]
+        kept = alone & (np.cumsum(alone, axis=1) <= wanted[:, None])
+        return np.sort(good[table[kept]])
