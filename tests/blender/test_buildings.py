@@ -193,6 +193,24 @@ def test_an_earlier_output_stays_where_writing_fails(files, monkeypatch):
     assert not list(files.glob("*.part*"))
 
 
+@pytest.mark.skipif(INSIDE_BLENDER or sys.platform == "win32", reason="the limit is set by Python on POSIX")
+def test_a_file_that_is_cut_off_is_no_result(files):
+    names = ["--tree", str(files / "tree.json"), "--parcels", str(files / "plots.geojson")]
+    arguments = ["apply", *names, "--output", str(files / "out.blend")]
+    for name in ("out.blend", "out.manifest.json"):
+        (files / name).write_bytes(b"earlier")
+    program = (
+        f"import resource, sys; sys.path.insert(0, {str(ROOT)!r}); "
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (65536, 65536)); "
+        f"from geoanalogy.command_line import leave, main; leave(main({arguments!r}))"
+    )
+    done = run([sys.executable, "-c", program], files)
+    assert done.returncode == 5, done.stdout + done.stderr
+    assert "geoanalogy: cannot write" in done.stderr and "Traceback" not in done.stderr
+    assert (files / "out.blend").read_bytes() == (files / "out.manifest.json").read_bytes() == b"earlier"
+    assert not list(files.glob("*.part*"))
+
+
 def test_a_tree_of_the_map_is_an_instance(files):
     polygon = engine().Polygon
     ground = engine().Scene([polygon([(0, 0), (4, 0), (4, 4), (0, 4)], label="statue", id="t")])

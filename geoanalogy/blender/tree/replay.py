@@ -11,6 +11,7 @@ from ...progress import Stepper, run, within
 from .. import names, register
 from ..regions.recording import replayed_steps, write_replayed
 from ..writing.picture import draw_picture
+from ..writing.saving import save_copy
 from .evaluating import read_surroundings
 from .lessons import relearned_steps
 from .store import drawing_nodes, operation_nodes, ordered_nodes, require_operations, tree_of
@@ -186,10 +187,7 @@ def replay_file(
     if render is not None:
         draw_picture(scene, render)
     if output is not None:
-        try:
-            bpy.ops.wm.save_as_mainfile(filepath=str(output), copy=True, compress=True, check_existing=False)
-        except RuntimeError as error:
-            raise OSError(f"cannot write {output}: {str(error).strip()}") from None
+        save_copy(output)
     return report
 
 

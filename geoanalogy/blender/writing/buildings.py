@@ -3,7 +3,7 @@
 import os
 import zlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,6 +23,7 @@ from ..names import UNLABELLED
 from .library_objects import put
 from .outdoors import furnish
 from .picture import draw_picture
+from .saving import save_copy, whole
 from .shading import FINISHES, VARIATION, material
 
 Array = NDArray[np.float64]
@@ -125,37 +126,15 @@ def write(
     with ExitStack() as parts:
         if results.render is not None:
             report(1.0, "drawing")
-            draw_picture(scene, parts.enter_context(_whole(results.render)))
+            draw_picture(scene, parts.enter_context(whole(results.render)))
         if results.output is not None:
-            _save(results.output)
+            save_copy(results.output)
     return built
 
 
 def _fresh() -> bpy.types.Scene:
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True, load_ui=False)
     return bpy.context.scene
-
-
-@contextmanager
-def _whole(path: Path):
-    """A name beside a file, which takes the file's place where all goes well."""
-    part = path.with_name(f"{path.stem}.{os.getpid()}.part{path.suffix}")
-    try:
-        yield part
-        if not part.is_file() or not part.stat().st_size:
-            raise OSError(f"cannot write {path}: Blender left no file there.")
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
-
-
-def _save(path: Path) -> None:
-    """Save the open file under a name that it does not keep."""
-    with _whole(path) as part:
-        try:
-            bpy.ops.wm.save_as_mainfile(filepath=str(part), copy=True, compress=True, check_existing=False)
-        except RuntimeError as error:
-            raise OSError(f"cannot write {path}: {str(error).strip()}") from None
 
 
 def _linked(
@@ -179,7 +158,7 @@ def _linked(
             whole.children.link(part)
         scene.collection.children.link(whole)
         path = folder / f"{name}.blend"
-        _save(path)
+        save_copy(path)
         written.append((name, path))
     scene = _fresh()
     base = results.output or results.render
