@@ -3,7 +3,7 @@
 import bpy
 from bpy.props import StringProperty
 
-from ..geoanalogy.blender.reading.face_labels import label_faces
+from ..geoanalogy.blender.writing.face_labels import label_faces
 from .edit import Edit
 
 

@@ -2,11 +2,11 @@
 
 Its modules are imported by `register()`, so that reading this file asks for no Blender.
 
-Reading order: `names`; `reading`, from objects to scenes (`planes`, `shapes`, `ground`, `footprints`, `sites`);
-`tree`, the operations tree in the .blend (`node_tree`, `store`, `editing`), from an example to its results
-(`evaluating`, `lessons`, `recording`), sifting them (`refresh`, `corrections`), `replay`, and trees that make solids
-(`building`, `whole`); `writing`, what is made of results (`instances`, `masses`) and of what a stored tree has built
-(`buildings`); `regions`, the same from drawings for chapter 3.
+Reading order: `names`; `reading`, from objects to scenes (`planes`, `shapes`, `ground`, `footprints`); `tree`, the
+operations tree in the .blend (`node_tree`, `store`, `editing`), from an example to its results (`evaluating`, `sites`,
+`lessons`, `recording`), sifting them (`refresh`, `corrections`), `replay`, and trees that make solids (`building`,
+`whole`); `writing`, what is made of results (`instances`, `masses`) and of what a stored tree has built (`buildings`);
+`regions`, the same from drawings for chapter 3.
 """
 
 from .registration import register_in_order, unregister_in_order

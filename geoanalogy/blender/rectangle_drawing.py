@@ -17,9 +17,9 @@ from . import names
 from .holders import ensure_holder
 from .reading.footprints import frame_of
 from .reading.planes import Plane
-from .reading.sites import NEARER, Site, sites_of
 from .tree.editing import chosen_outputs
 from .tree.evaluating import after_steps, read_surroundings
+from .tree.sites import NEARER, Site, sites_of
 from .tree.store import builds, ordered_nodes, tree_of
 
 Array = NDArray[np.float64]

@@ -15,11 +15,11 @@ from ...tolerances import CONTAINED_SHARE
 from .. import names
 from ..reading.footprints import pose_of
 from ..reading.planes import Plane
-from ..reading.sites import site_under, sites_before
 from ..regions.results import hidden_targets
 from .evaluating import mark_stale
 from .refresh import proposed_by
 from .showing import show_again
+from .sites import site_under, sites_before
 from .store import (
     builds,
     engine_node,

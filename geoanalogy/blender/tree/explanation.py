@@ -16,8 +16,8 @@ from ...placements.model import PlacementModel
 from ...poses.arrangement import arrangement_of
 from ...poses.propagate import PoseModel
 from .. import names
-from ..reading.sites import site_under, sites_before
 from .refresh import proposed_by
+from .sites import site_under, sites_before
 from .store import engine_node, require_operations
 
 #: Relations that are listed, and the least part of the importance that is; the rest is one line.

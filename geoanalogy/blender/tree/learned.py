@@ -12,10 +12,10 @@ from ...operations.element import Element
 from ...operations.rectangle_placement import RectanglePlacement
 from ...progress import Stepper
 from .. import names
-from ..reading.sites import Site
 from .explanation import Reason
 from .node_settings import stored_settings
 from .refresh import proposed_by
+from .sites import Site
 
 #: Novelty from which an example more would help.
 UNFAMILIAR = 0.4

@@ -31,9 +31,9 @@ from ...progress import Stepper
 from ...tolerances import CONTAINED_SHARE
 from .. import names
 from ..reading.footprints import footprint_of, pose_of
-from ..reading.sites import Site, site_of, sites_in
 from .evaluating import Surroundings, incoming_steps
 from .placement_lessons import relearned_placement_steps
+from .sites import Site, site_of, sites_in
 from .store import builds, is_building, is_placement, placed_by
 
 Array = NDArray[np.float64]

@@ -19,8 +19,8 @@ from ...progress import Stepper, within
 from .. import names
 from ..reading.planes import Plane
 from ..reading.rectangles import middle_of, rectangle_of, target_of
-from ..reading.sites import Site, site_of, sites_of
 from .evaluating import Surroundings, incoming_steps
+from .sites import Site, site_of, sites_of
 from .store import builds, placed_by
 
 #: Difference of rectangles, in sizes of the rectangle, below which an example has not been changed.

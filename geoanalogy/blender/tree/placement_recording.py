@@ -22,7 +22,6 @@ from .. import names
 from ..reading.ground import label_of
 from ..reading.planes import Plane
 from ..reading.rectangles import middle_of, rectangle_of, require_stretchable, rest_on, target_of
-from ..reading.sites import site_under, sites_before, sites_of
 from .corrections import decide, forget_all
 from .editing import chosen_outputs, free_id
 from .evaluating import (
@@ -48,6 +47,7 @@ from .placement_lessons import (
 )
 from .recording import require_object
 from .refresh import proposed_by
+from .sites import site_under, sites_before, sites_of
 from .store import (
     Placed,
     builds,

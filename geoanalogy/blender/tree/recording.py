@@ -29,7 +29,6 @@ from ...progress import Stepper, within
 from .. import names
 from ..reading.footprints import pose_of, rest_of
 from ..reading.ground import label_of
-from ..reading.sites import Site, site_of, sites_in
 from .editing import chosen_outputs, free_id
 from .evaluating import (
     Surroundings,
@@ -42,6 +41,7 @@ from .evaluating import (
     write_node,
 )
 from .lessons import learn, learn_group, learn_row, scene_without
+from .sites import Site, site_of, sites_in
 from .store import Placed, builds, ensure_tree, placed_by, tree_of
 from .whole import whole_steps, write_whole
 from .writing_nodes import add_node, write_operation, write_placed
