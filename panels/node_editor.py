@@ -6,6 +6,7 @@ from ..geoanalogy.blender import names
 from ..geoanalogy.blender.tree.evaluating import evaluations
 from ..geoanalogy.blender.tree.new_nodes import KINDS
 from ..geoanalogy.blender.tree.node_tree import ICONS
+from .base import paragraph
 
 
 def _shows_tree(context: bpy.types.Context) -> bool:
@@ -58,6 +59,10 @@ class GEOANALOGY_PT_tree(bpy.types.Panel):
         row = layout.row(align=True)
         row.operator("geoanalogy.import_tree", text="Import", icon="IMPORT")
         row.operator("geoanalogy.export_tree", text="Export", icon="EXPORT")
+        node = tree.nodes.active
+        if node is not None and node.get(names.PROBLEM):
+            layout.label(text=node.name)
+            paragraph(layout, str(node[names.PROBLEM]), "ERROR")
 
 
 def register():
