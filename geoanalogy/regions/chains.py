@@ -34,9 +34,9 @@ CHORDS = ((1, 1), (1, 2), (1, 3), (2, 1), (3, 1))
 BY_QUERY = {1: (slice(0, 3), slice(0, 3)), 2: (slice(3, 4), slice(0, 1)), 3: (slice(4, 5), slice(0, 1))}
 #: Corners of the drawing that are compared at once: what fits into the processor's cache.
 WIDTH = 900
-#: Of the drawing's stretches, those that the finer grades look at: the best of the coarsest grade, and all that are
+#: Of the drawing's stretches, those that the finer grades look at: the best of the coarsest grade, and more that are
 #: worth this share of the best.
-LEADING, NEARLY = 12, 0.6
+LEADING, MOST_LEADING, NEARLY = 12, 36, 0.6
 #: Standard deviation of the change of rotation, and of the logarithm of scale, at a joint of one bent shape.
 TURN, SCALE = np.radians(14.0), 0.28
 #: What a joint without any change is worth, for its rotation and for its scale, and the most that one costs.
@@ -192,9 +192,9 @@ def chain(contours: Contours, sources: list[Run], targets: list[Run], mirrored: 
 
 
 def _leading(best: Floats) -> Indices:
-    """Targets that are worth a closer look, in their order: the first LEADING, and all that are nearly as good."""
-    order = np.argsort(-best, kind="stable")
-    return np.sort(order[(np.arange(len(best)) < LEADING) | (best[order] >= NEARLY * best[order[0]])])
+    """Targets that are worth a closer look, in their order: the first LEADING, and some that are nearly as good."""
+    order = np.argsort(-best, kind="stable")[:MOST_LEADING]
+    return np.sort(order[(np.arange(len(order)) < LEADING) | (best[order] >= NEARLY * best[order[0]])])
 
 
 def _area(ring: Complex) -> float:

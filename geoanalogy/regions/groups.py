@@ -19,8 +19,8 @@ GAPS = (0.05, 0.12, 0.25)
 DIRECTIONS, KEPT = 24, 3
 #: Distance, in extents of the query at the target's scale, beyond which a line is as good as absent.
 FAR = 0.1
-#: Groups at most, largest first.
-MOST_GROUPS = 24
+#: Groups at most, largest first, and about how many points of the lines tell them.
+MOST_GROUPS, MOST_POINTS = 24, 20_000
 
 
 def groups(target: Target, gap: float) -> list[NDArray[np.intp]]:
@@ -33,14 +33,14 @@ def groups(target: Target, gap: float) -> list[NDArray[np.intp]]:
 
     Returns
     -------
-    list[NDndarray[np.intp]]
+    list of (n,) int
     """
-    stride = max(1, int(0.25 * gap / float(np.median(target.spacing))))
+    stride = max(1, int(0.25 * gap / float(np.median(target.spacing))), len(target.points) // MOST_POINTS)
     some = np.flatnonzero(target.place % stride == 0)  # of every line its first point, however short it is
     xy = np.stack([target.points[some].real, target.points[some].imag], 1)
     near = cKDTree(xy).sparse_distance_matrix(cKDTree(xy), gap, output_type="coo_matrix")
-    number, part = connected_components(near, directed=False)
-    found = [some[part == k] for k in range(number)]
+    _, part = connected_components(near, directed=False)
+    found = np.split(some[np.argsort(part, kind="stable")], np.cumsum(np.bincount(part))[:-1])
     found.sort(key=lambda g: -round(float(target.spacing[g].sum()), 9))
     return found[:MOST_GROUPS]
 
