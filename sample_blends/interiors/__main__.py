@@ -18,12 +18,12 @@ from geoanalogy.operations.applied import Applied
 from ..kitchens.drawing import FINISHES as KITCHEN_FINISHES
 from ..pictures import draw, finished
 from .furnishing import CUT, below, furnish, opened, walls
-from .storey import Storey
+from .storey import HEIGHT, Storey
 
 HOUSES = Path(__file__).resolve().parents[1] / "houses"
 
-#: Height of a condominium's storey, and how far its lowest floor lies above the ground.
-STOREY, PLINTH = 3.1, 0.25
+#: How far the lowest floor of a condominium lies above the ground.
+PLINTH = 0.25
 
 #: How far the floors of rooms lie above that of the storey, so that both can be drawn.
 CLEAR = 0.01
@@ -59,7 +59,7 @@ def condominium(plot: str, seed: int) -> Applied:
 def meshes(applied: Applied, number: int, seed: int) -> Iterator[Mesh]:
     """The building up to a storey, and what furnishes that."""
     block = next(e for e in applied if e.label == "block")
-    storey = Storey.of(block, PLINTH + STOREY * number)
+    storey = Storey.of(block, PLINTH + HEIGHT * number, applied)
     level = storey.frame.origin[2]
     yield finished(opened(block, storey), FINISHES, "plaster cream")
     for e in applied:

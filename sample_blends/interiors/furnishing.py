@@ -60,7 +60,8 @@ def opened(building: Element, storey: Storey) -> Mesh:
 def walls(storey: Storey) -> Iterator[Mesh]:
     """Inner walls, cut open, and floors, in the storey's own frame."""
     rooms = [(label, shapely.box(*box)) for label, box, _ in storey.rooms()]
-    clear = [shapely.box(*storey.corridor), *(shape for _, shape in rooms)]
+    halls = [shapely.box(*box) for box in storey.halls()]
+    clear = [shapely.box(*storey.corridor), *halls, *(shape for _, shape in rooms)]
     thick = [shape.buffer(2 * HALF_WALL, join_style="mitre") for label, shape in rooms if label not in FLOORS]
     ways = []
     half = storey.corridor[1] - HALF_WALL
@@ -74,10 +75,12 @@ def walls(storey: Storey) -> Iterator[Mesh]:
         body = extrude(ga.Polygon(rings[0], holes=rings[1:]), CUT, FaceLabels("wall", "wall cut", "wall"))
         yield body.mesh
     way = shapely.box(*storey.corridor).buffer(2 * HALF_WALL, join_style="mitre")  # to the thresholds
-    for label, shape in (("corridor", way), *rooms):
+    for label, shape in (("corridor", way), *(("corridor", hall) for hall in halls), *rooms):
         if label in FLOORS:
             labels = FaceLabels(FLOORS[label], FLOORS[label], FLOORS[label])
-            yield extrude(ga.Polygon(rectangle(*shape.bounds)), 0.005 if shape is way else 0.01, labels).mesh
+            # Ways below rooms, where both lie; and halls between.
+            height = {"corridor": 0.005 if shape is way else 0.0075}.get(label, 0.01)
+            yield extrude(ga.Polygon(rectangle(*shape.bounds)), height, labels).mesh
 
 
 def below(mesh: Mesh, height: float) -> Mesh | None:

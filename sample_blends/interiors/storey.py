@@ -1,14 +1,16 @@
-"""A storey as a plan: rooms on both sides of a corridor, with their doors and windows, in the storey's own frame."""
+"""A storey as a plan: rooms behind the windows of its facades, in the storey's own frame."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 import geoanalogy as ga
 from geoanalogy.geometry.frame import Frame
+from geoanalogy.geometry.surface import GROUND
 from geoanalogy.operations.element import Element
 
 from ..kitchens.rooms import KITCHEN, room
@@ -17,12 +19,22 @@ from ..plans.outlines import rectangle
 #: Metres: the outer wall, half an inner wall, and the corridor.
 FACADE, HALF_WALL, CORRIDOR = 0.35, 0.06, 1.6
 
-#: Doors, the room to step through them, windows, and the room to open these.
-DOOR, PASSAGE, WINDOW, SILL = 0.9, 0.6, 1.6, 0.15
+#: Height of a storey, doors, the room to step through them, and the room to open windows.
+HEIGHT, DOOR, PASSAGE, SILL = 3.1, 0.9, 0.6, 0.15
 
-#: The rooms of one flat along the corridor and the widths that they should have.
-FLAT = (("living room", 4.6), ("bedroom", 3.6), ("bathroom", 2.3), (KITCHEN, 3.6), ("bedroom", 3.4))
+#: The rooms of one flat along its windows, and the widths that they should have.
+FLAT = (("living room", 5.4), ("bedroom", 3.6), (KITCHEN, 3.6), ("bedroom", 3.4))
 
+#: What has no window: width of bathrooms beside a stretch of wall without any, and of the shortest such stretch.
+BATHROOM, BLIND = 2.3, 4.5
+
+#: How far from a window an inner wall stands that has none on its other side.
+MARGIN = 0.7
+
+#: What daylight comes through, by the last word of its label.
+OPENINGS = ("window", "loggia")
+
+Span = tuple[float, float]
 Box = tuple[float, float, float, float]
 
 
@@ -36,15 +48,20 @@ class Storey:
         Where it lies: its origin is the left front corner inside the outer walls, x along the front.
     width, depth : float
         Inside the outer walls.
+    windows : (tuple of (float, float), tuple of (float, float))
+        Ends of the windows in the front, and of those in the rear.
     """
 
     frame: Frame
     width: float
     depth: float
+    windows: tuple[tuple[Span, ...], tuple[Span, ...]] = ((), ())
 
     @classmethod
-    def of(cls, building: Element, level: float) -> Storey:
+    def of(cls, building: Element, level: float, elements: Iterable[Element] = ()) -> Storey:
         """A storey of a building with a rectangular outline, its floor at a height.
+
+        Its windows are those of the elements that have been cut into the building's front and rear at that height.
 
         Raises
         ------
@@ -61,16 +78,16 @@ class Storey:
             raise ga.InputError(f"{building.id!r} is {width:.1f} by {depth:.1f} inside; choose a larger building")
         x, y = turned.min(axis=0) + FACADE
         origin = (float(c * x - s * y), float(s * x + c * y), level)
-        return cls(Frame(origin, (float(c), float(s), 0.0), (float(-s), float(c), 0.0)), float(width), float(depth))
+        frame = Frame(origin, (float(c), float(s), 0.0), (float(-s), float(c), 0.0))
+        return cls(frame, float(width), float(depth), _windows(frame, float(width), float(depth), elements))
 
     def rooms(self) -> list[tuple[str, Box, bool]]:
         """Labels of the rooms, their clear floors, and whether they lie before the corridor."""
         found = []
         half = (self.depth - CORRIDOR) / 2
         for front in (True, False):
-            labels = _in_a_row(self.width, FLAT if front else FLAT[::-1])
             low, high = (0.0, half - HALF_WALL) if front else (half + CORRIDOR + HALF_WALL, self.depth)
-            for label, x0, x1 in labels:
+            for label, x0, x1 in _behind(self.windows[0 if front else 1], self.width, FLAT if front else FLAT[::-1]):
                 left, right = (0.0 if x0 <= 0 else HALF_WALL), (0.0 if x1 >= self.width else HALF_WALL)
                 found.append((label, (x0 + left, low, x1 - right, high), front))
         return found
@@ -81,15 +98,28 @@ class Storey:
         half = (self.depth - CORRIDOR) / 2
         return (0.0, half + HALF_WALL, self.width, half + CORRIDOR - HALF_WALL)
 
+    def halls(self) -> list[Box]:
+        """Clear floors of what opens to the corridor, where a facade has no windows: staircases, ways to a wing."""
+        found = []
+        half = (self.depth - CORRIDOR) / 2
+        for front in (True, False):
+            ends = [0.0, *(x for _, (x0, _, x1, _), before in self.rooms() if before == front for x in (x0, x1))]
+            low, high = (0.0, half + HALF_WALL) if front else (half + CORRIDOR - HALF_WALL, self.depth)
+            for a, b in zip(ends[::2], [*ends[1::2], self.width], strict=True):
+                if b - a > 2 * HALF_WALL + 1e-6:
+                    left, right = (2 * HALF_WALL if a > 0.0 else 0.0), (2 * HALF_WALL if b < self.width else 0.0)
+                    found.append((a + left, low, b - right, high))
+        return found
+
     def openings(self) -> list[tuple[str, Box, bool]]:
         """Label of every door and window, its ends along the wall, and whether its room lies before the corridor."""
         found = []
         for label, (x0, _, x1, _), front in self.rooms():
             if label != KITCHEN:
                 found.append(("door", (x0 + 0.15, 0.0, x0 + 0.15 + DOOR, 0.0), front))
-                if label != "bathroom":
-                    middle = (x0 + x1) / 2
-                    found.append(("window", (middle - WINDOW / 2, 0.0, middle + WINDOW / 2, 0.0), front))
+                for a, b in self.windows[0 if front else 1]:
+                    if x0 <= a and b <= x1:
+                        found.append(("window", (a, 0.0, b, 0.0), front))
         return found
 
     def plan(self) -> ga.Scene:
@@ -120,14 +150,58 @@ class Storey:
         return ga.Scene(made)
 
 
-def _in_a_row(width: float, flat: Sequence[tuple[str, float]]) -> list[tuple[str, float, float]]:
-    """As many rooms as fit best, in the flat's order, all stretched alike."""
-    taken, total = [], 0.0
-    while True:
-        label, wanted = flat[len(taken) % len(flat)]
-        if taken and abs(total - width) <= abs(total + wanted - width):
-            break
-        taken.append((label, wanted))
-        total += wanted
-    ends = np.cumsum([0.0, *(w for _, w in taken)]) * width / total
-    return [(label, float(a), float(b)) for (label, _), a, b in zip(taken, ends[:-1], ends[1:], strict=True)]
+def _windows(
+    frame: Frame, width: float, depth: float, elements: Iterable[Element]
+) -> tuple[tuple[Span, ...], tuple[Span, ...]]:
+    """Ends of the windows in the front and in the rear of a storey."""
+    found: tuple[list[Span], list[Span]] = ([], [])
+    for e in elements:
+        if e.surface == GROUND or e.ring is None or e.label.split()[-1] not in OPENINGS:
+            continue
+        corners = frame.to_plane(e.frame.to_space(e.ring))
+        (x0, y0, z0), (x1, y1, z1) = corners.min(axis=0), corners.max(axis=0)
+        inside = 0.0 < x0 and x1 < width and 0.0 < z0 and (z0 + z1) / 2 < HEIGHT
+        for side, y in zip(found, (-FACADE, depth + FACADE), strict=True):
+            if inside and max(abs(y0 - y), abs(y1 - y)) < FACADE:
+                side.append((float(x0), float(x1)))
+    return tuple(sorted(found[0])), tuple(sorted(found[1]))
+
+
+def _behind(windows: Sequence[Span], width: float, flat: Sequence[tuple[str, float]]) -> list[tuple[str, float, float]]:
+    """Rooms along a facade: a row behind neighbouring windows, bathrooms beside what has none.
+
+    Inner walls stand in the middle between two windows.
+    """
+    ends = [0.0, *(x for span in windows for x in span), width]
+    blind = [(a, b) for a, b in zip(ends[::2], ends[1::2], strict=True) if b - a > BLIND]
+    # A wall keeps half the usual distance of two windows from them.
+    rows, at = [], 0.0
+    for a, b in blind:
+        rows.append((at, a + MARGIN if a > 0.0 else 0.0))
+        at = b - MARGIN if b < width else width
+    rows.append((at, width))
+    found: list[tuple[str, float, float]] = []
+    for k, (x0, x1) in enumerate(rows):
+        those = [span for span in windows if x0 <= span[0] and span[1] <= x1]
+        if those:
+            if k:
+                found.append(("bathroom", x0 - BATHROOM, x0))
+            found += _in_a_row(those, x0, x1, flat)
+            if k + 1 < len(rows):
+                found.append(("bathroom", x1, x1 + BATHROOM))
+    return found
+
+
+def _in_a_row(
+    windows: Sequence[Span], x0: float, x1: float, flat: Sequence[tuple[str, float]]
+) -> list[tuple[str, float, float]]:
+    """Rooms from one end to another, in the flat's order, each with as many windows as come nearest to its width."""
+    middles = [(a[1] + b[0]) / 2 for a, b in pairwise(windows)]
+    ends = [x0, *middles, x1]
+    found, at = [], 0
+    while at < len(windows):
+        label, wanted = flat[len(found) % len(flat)]
+        last = min(range(at + 1, len(ends)), key=lambda k: abs(ends[k] - ends[at] - wanted))
+        found.append((label, float(ends[at]), float(ends[last])))
+        at = last
+    return found

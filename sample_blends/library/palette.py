@@ -141,6 +141,7 @@ PALETTE: dict[str, Finish] = {
     "fine lawn": Finish("#6FA342", 0.95, pattern="lawn", second="#7CAF4C", scale=0.8),
     "meadow": Finish("#557A3A", 1.0, pattern="lawn", second="#648845", scale=4.0),
     "gravel": Finish("#D9C49A", 0.95, pattern="mottled", second="#C9B285", scale=0.5),
+    "asphalt": Finish("#4E5054", 0.95, pattern="mottled", second="#585A5E", scale=0.8),
     "kerb": Finish("#CFC9BC", 0.8),
     # facades
     "plaster ochre": Finish("#DDB877", 0.9, pattern="mottled", second="#D6AF6C", scale=0.6),

@@ -11,11 +11,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import geoanalogy as ga
-from geoanalogy.geometry.mesh import Mesh
+from geoanalogy.geometry.mesh import Mesh, joined
 from geoanalogy.operations.chance import share
 
 from ..pictures import draw, finished
 from .__main__ import HERE, SEED, grown
+from .streets import surroundings
 
 #: Finish of a face by the last word of its label that is found here; "" is the stone of the building.
 FINISHES = {
@@ -36,6 +37,9 @@ FINISHES = {
     "leaf": "black metal",
     "plinth": "granite",
 }
+
+#: Degrees above the horizon that the viewer stands.
+ELEVATION = 17.0
 
 #: The stones of walls, and what belts, cornices and spandrels are of beside each.
 STONES = (
@@ -83,9 +87,11 @@ def main() -> int:
     arguments = parser.parse_args()
     lots = ga.read_scene(arguments.lots)
     built = list(meshes(grown().apply(lots, arguments.seed), lots, arguments.seed))
+    seen = joined(built).vertices
+    whole = [*built, *surroundings(lots)]
     for k, turn in enumerate(arguments.turn):
         name = arguments.output if not k else arguments.output.with_stem(f"{arguments.output.stem}-{k + 1}")
-        draw(built, name, turn, 17.0, tuple(arguments.size), arguments.samples, ("plaster grey", -0.02), 50.0)
+        draw(whole, name, turn, ELEVATION, tuple(arguments.size), arguments.samples, ("meadow", -0.5), 50.0, seen)
     return 0
 
 

@@ -255,6 +255,20 @@ def test_the_cameras_see_everything(files):
             )
 
 
+def test_parcels_reach_down_to_the_ground(files):
+    buildings = bridge("writing.buildings")
+    buildings.build(bpy.context.scene, tree().apply(plots(), seed=7), None)
+    parcels, ground = (bpy.context.scene.objects[name].data for name in ("Parcels", "Ground"))
+    heights = sorted({round(v.co.z, 6) for v in parcels.vertices})
+    assert heights == pytest.approx([-0.06, -0.03], abs=1e-6) and ground.vertices[0].co.z == pytest.approx(-0.06)
+    edges = {}
+    for polygon in parcels.polygons:
+        for key in polygon.edge_keys:
+            edges[key] = edges.get(key, 0) + 1
+    open_at = {round(parcels.vertices[k].co.z, 6) for key, count in edges.items() if count == 1 for k in key}
+    assert open_at == {heights[0]}
+
+
 def test_an_empty_plan_is_refused():
     applied = tree().apply(engine().Scene([]), seed=7)
     with pytest.raises(engine("errors").InputError, match="nothing was built and there are no parcels"):

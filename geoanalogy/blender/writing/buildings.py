@@ -270,7 +270,7 @@ def _surroundings(scene: bpy.types.Scene, ground: Scene, standing: frozenset[str
     if len(parcels.faces):
         made = bpy.data.objects.new("Parcels", mesh_data("Parcels", parcels))
         ensure_holder(scene.collection, SURROUNDINGS).objects.link(made)
-    return parcels.vertices
+    return np.maximum(parcels.vertices, (-np.inf, -np.inf, -DROP))
 
 
 def _place_to_look_from(scene: bpy.types.Scene, points: Sequence[Array], ground: Scene) -> None:
@@ -321,6 +321,22 @@ def _parcels(ground: Scene, standing: frozenset[str]) -> Mesh:
             above, depth = ground.parent(str(above.id)), depth + 1
         faces, points = triangulated(polygon.rings), np.concatenate(polygon.rings)
         flat = np.column_stack([points, np.full(len(points), -DROP / depth)])
+        low = np.column_stack([points, np.full(len(points), -2.0 * DROP)])
+        # Down to the ground all round: one would see under it from the street.
+        faces = np.concatenate([faces, _sides([len(ring) for ring in polygon.rings])])
         finish = polygon.label if polygon.label and polygon.label.lower().split()[-1] in FINISHES else PARCEL
-        made.append(Mesh(flat, faces, points[faces], (finish,), np.zeros(len(faces), dtype=np.intp)))
+        uv = np.concatenate([points, points])[faces]
+        made.append(Mesh(np.concatenate([flat, low]), faces, uv, (finish,), np.zeros(len(faces), dtype=np.intp)))
     return joined(made)
+
+
+def _sides(counts: Sequence[int]) -> NDArray[np.intp]:
+    """Triangles between rings of so many vertices, one after the other, and the same again below them."""
+    total = sum(counts)
+    start = np.arange(total)
+    end = start + 1
+    ends = np.cumsum(counts)
+    end[ends - 1] = ends - counts
+    return np.concatenate(
+        [np.column_stack([start, start + total, end + total]), np.column_stack([start, end + total, end])]
+    )
