@@ -5,7 +5,7 @@
 Reads `cmp_facades`, `bubenec_city` and `r2v_floorplans` below the folder named by GEOANALOGY_DATA. Every layout gives
 a few cases: some rectangles of a label are shown, the others are to be found. With ``--report`` each half of the
 layouts is fitted, and reported on the other one. With ``--write`` the table is fitted to all, or with ``--half`` to
-every other layout alone, and written where the engine finds it.
+every other layout alone, and written where the engine finds it. With ``--only`` the other judgements stay as they are.
 """
 
 import argparse
@@ -37,6 +37,10 @@ RIGHT = 0.5
 SHARPNESS = 30.0
 #: What a place that is right but for a mirroring is worth in rooms: which corner was taken is one choice of several.
 MIRRORED_WORTH = 0.4
+#: Sums that saturate, beside the plain one, in the last model: more of them fit better and judge no better.
+REASONS = 1
+#: Fits of them from other weights, of which the best is kept, and the least worth of a reason: at 0 it learns no more.
+STARTS, LEAST_WORTH = 3, 0.25
 #: Of how many wrong candidates one is fitted, and how many steps a fit takes at most.
 THINNED, MOST_STEPS = 3, 150
 ROOMS = ("toilet", "bathtub", "washing_basin", "cooking_counter")
@@ -103,21 +107,24 @@ def limits_of(names):
     ]
 
 
-def fitted(evidence, right, weight, names, ridge=1e-4):
-    """Weights of a logistic model; of the many wrong candidates every `THINNED`-th stands for that many."""
+def thinned(evidence, right, weight):
+    """Of the many wrong candidates every `THINNED`-th, which stands for that many; weights add up to 1."""
     some = (right > 0) | (np.arange(len(right)) % THINNED == 0)
     weight = np.where(right > 0, 1, THINNED)[some] * weight[some]
-    evidence, right = evidence[some].astype(np.float64), right[some]
+    return evidence[some].astype(np.float64), right[some], weight / weight.sum()
+
+
+def fitted(evidence, right, weight, names, ridge=1e-4):
+    """Weights of a logistic model."""
+    evidence, right, weight = thinned(evidence, right, weight)
     scale = evidence.std(axis=0) + 1e-9
     z = evidence / scale
 
     def loss(p):
         value = z @ p[:-1] + p[-1]
-        error = weight * (1 / (1 + np.exp(-value)) - right) / weight.sum()
+        error = weight * (1 / (1 + np.exp(-value)) - right)
         return (
-            float(
-                (weight * (np.logaddexp(0, value) - right * value)).sum() / weight.sum() + ridge * (p[:-1] ** 2).sum()
-            ),
+            float((weight * (np.logaddexp(0, value) - right * value)).sum() + ridge * (p[:-1] ** 2).sum()),
             np.append(z.T @ error + 2 * ridge * p[:-1], error.sum()),
         )
 
@@ -126,6 +133,59 @@ def fitted(evidence, right, weight, names, ridge=1e-4):
         loss, np.zeros(len(names) + 1), jac=True, method="L-BFGS-B", bounds=limits, options={"maxiter": MOST_STEPS}
     )
     return calibration.Calibration(names, solved.x[:-1] / scale, float(solved.x[-1]))
+
+
+def reasoned(evidence, right, weight, names, ridge=1e-5):
+    """A logistic model of a sum and `REASONS` sums that saturate; each keeps to the signs of the evidence."""
+    evidence, right, weight = thinned(evidence, right, weight)
+    middle, scale = evidence.mean(axis=0), evidence.std(axis=0)
+    # What never differs (rows of examples where there are none) says nothing.
+    scale[scale < 1e-6] = np.inf
+    z = ((evidence - middle) / scale).astype(np.float32)
+    f, r = len(names), REASONS
+
+    def parts(p):
+        return p[: f * r].reshape(f, r), p[f * r : (f + 1) * r], p[(f + 1) * r : (f + 2) * r], p[(f + 2) * r : -1]
+
+    def loss(p):
+        reasons, thresholds, worth, direct = (part.astype(np.float32) for part in parts(p))
+        sums = np.tanh(z @ reasons + thresholds)
+        value = (sums @ worth + z @ direct).astype(np.float64) + p[-1]
+        error = (weight * (1 / (1 + np.exp(-value)) - right)).astype(np.float32)
+        back = error[:, None] * worth * (1 - sums**2)
+        kept = [2 * ridge * reasons, 0.0, 2 * ridge * worth, 0.2 * ridge * direct]
+        slopes = [g + k for g, k in zip((z.T @ back, back.sum(axis=0), sums.T @ error, z.T @ error), kept, strict=True)]
+        small = (reasons**2).sum() + (worth**2).sum() + 0.1 * (direct**2).sum()
+        return (
+            float((weight * (np.logaddexp(0, value) - right * value)).sum() + ridge * small),
+            np.concatenate([*(s.ravel() for s in slopes), [error.sum()]]).astype(np.float64),
+        )
+
+    limits = limits_of(names)
+    sign = np.array([-1 if high == 0 else 1 for _, high in limits])
+    free = np.array([low is None and high is None for low, high in limits])
+    bounds = [
+        *(one for one in limits for _ in range(r)),
+        *[(None, None)] * r,
+        *[(LEAST_WORTH, None)] * r,
+        *limits,
+        (None, None),
+    ]
+
+    def tried(seed):
+        rng = np.random.default_rng(seed)
+        start = rng.normal(0, 0.1, (f, r))
+        start = np.where(free[:, None], start, sign[:, None] * np.abs(start))
+        first = [start.ravel(), rng.normal(0, 0.5, r), np.full(r, 2 * LEAST_WORTH), np.zeros(f), [-2.0]]
+        options = {"maxiter": MOST_STEPS}
+        return minimize(loss, np.concatenate(first), jac=True, method="L-BFGS-B", bounds=bounds, options=options)
+
+    solved = min((tried(seed) for seed in range(STARTS)), key=lambda one: one.fun)
+    reasons, thresholds, worth, direct = parts(solved.x)
+    reasons, direct = reasons / scale[:, None], direct / scale
+    return calibration.Calibration(
+        names, direct, float(solved.x[-1] - middle @ direct), reasons, thresholds - middle @ reasons, worth
+    )
 
 
 def chosen(parts, names, ridge=1e-3):
@@ -163,10 +223,12 @@ def chosen(parts, names, ridge=1e-3):
     return calibration.Calibration(names, solved.x / scale, 0.0)
 
 
-def fit(cases):
-    """The judgements by name."""
-    models = {}
+def fit(cases, only):
+    """The judgements by name; those that are not to be fitted are the engine's."""
+    models = dict(zip(JUDGEMENTS, (survey.AT_HOME, survey.ABROAD, survey.ALONE), strict=True))
     for name, single in JUDGEMENTS.items():
+        if name not in only:
+            continue
         some = [{**c, "parts": [p for p in c["parts"] if p["judge"] == name]} for c in cases]
         models[name] = judgement([c for c in some if c["parts"]], single)
     return models
@@ -186,8 +248,9 @@ def judgement(cases, single):
     for p in parts:
         settle_evidence(p, look)
     names = single + AMONG + calibration.SETTLED
-    settle = fitted(np.hstack([first, stack("settled")]), right, weigh("boxes"), names)
     some = [p for p in parts if "worth" in p]
+    # One of many alike is chosen by odds among each other: there are too few rooms for more than sums.
+    settle = (fitted if some else reasoned)(np.hstack([first, stack("settled")]), right, weigh("boxes"), names)
     return calibration.Judgement(glance, look, settle, chosen(some, names) if some else None)
 
 
@@ -249,12 +312,17 @@ def report(title, cases, models):
         print(f"  {kind:18s} {len(rows[kind]):5d}  " + "  ".join(f"{v:5.3f}" for v in np.mean(rows[kind], axis=0)))
 
 
+def shortest(number):
+    """A weight in three decimals, no zero more than needed."""
+    return f"{round(number, 3) + 0.0:.3f}".rstrip("0").rstrip(".").replace("-0.", "-.").removeprefix("0") or "0"
+
+
 def written(models):
     """Write the table where the engine finds it."""
     rows = [
         '"""Weights of the models of `calibration` by evidence; a benchmark writes this file."""',
         "",
-        "TABLE: dict[str, dict[str, dict[str, float]]] = {",
+        "TABLE: dict[str, dict[str, dict[str, str]]] = {",
     ]
     for place, judge in models.items():
         rows.append(f'    "{place}": {{')
@@ -262,12 +330,13 @@ def written(models):
             model = getattr(judge, stage)
             if model is None:
                 continue
-            rows += [f'        "{stage}": {{', f'            "offset": {model.offset:.4f},']
-            rows += [
-                f'            "{n}": {w:.4f},'
-                for n, w in zip(model.names, model.weights, strict=True)
-                if abs(w) >= 5e-4
-            ]
+            weights = np.column_stack([model.weights, model.reasons.reshape(len(model.names), -1)])
+            numbers = {calibration.OFFSET: [model.offset, *model.thresholds]}
+            if len(model.worth):
+                numbers[calibration.WORTH] = model.worth
+            numbers |= {n: w for n, w in zip(model.names, weights, strict=True) if (np.abs(w) >= 5e-4).any()}
+            rows.append(f'        "{stage}": {{')
+            rows += [f'            "{name}": "{" ".join(map(shortest, some))}",' for name, some in numbers.items()]
             rows.append("        },")
         rows.append("    },")
     TABLE.write_text("\n".join([*rows, "}", ""]))
@@ -282,12 +351,14 @@ def main():
     """Collect, fit, report, write."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--facades", type=int, help="at most so many")
+    parser.add_argument("--share", type=float, default=1.0, help="share of the facades' cases")
     parser.add_argument("--rounds", type=int, default=2, help="how often candidates are collected anew")
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--half", type=int, choices=(0, 1), help="fit the written table to every other layout alone")
     parser.add_argument("--report", action="store_true", help="fit each half and report it on the other one")
     parser.add_argument("--keep", help="write the collected evidence to this file")
     parser.add_argument("--kept", help="read it from this file instead of collecting it")
+    parser.add_argument("--only", choices=JUDGEMENTS, nargs="+", default=list(JUDGEMENTS), help="judgements to fit")
     parser.add_argument("--seed", type=int, default=5)
     args = parser.parse_args()
     root = os.environ.get("GEOANALOGY_DATA")
@@ -302,7 +373,7 @@ def main():
         if args.kept:
             every = pickle.loads(pathlib.Path(args.kept).read_bytes())
         else:
-            every = collected(every_case(root, paths, args.seed))
+            every = collected(every_case(root, paths, args.seed, "alone" in args.only, args.share))
         if args.keep:
             pathlib.Path(args.keep).write_bytes(pickle.dumps(every))
         layouts = sorted({c["layout"] for c in every})
@@ -310,12 +381,12 @@ def main():
         for i, half in enumerate(halves):
             if not args.report and args.half != i:
                 continue
-            models = fit([c for c in every if c["layout"] in half])
+            models = fit([c for c in every if c["layout"] in half], args.only)
             report(f"round {turn + 1}, not fitted half {1 - i}", [c for c in every if c["layout"] not in half], models)
             sys.stdout.flush()
             if args.half == i:
                 of_half = models
-        models = fit(every) if args.half is None else of_half
+        models = fit(every, args.only) if args.half is None else of_half
         use(models)
     if args.write:
         written(models)

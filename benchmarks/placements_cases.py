@@ -202,11 +202,12 @@ def drawn_cases(rng, count):
         yield f"drawn {n}", f"drawn {label}", scene, [(scene, boxes[i]) for i in shown], truth
 
 
-def every_case(root, paths, seed):
-    """All cases of the facades at some paths, and of rooms, plots and drawn streets."""
+def every_case(root, paths, seed, alone=True, share=1.0):
+    """A share of the cases of facades at some paths, drawn streets, and rooms and plots, which hold one box each."""
     rng = np.random.default_rng(seed)
     for path in paths:
-        yield from facade_cases(path, rng)
-    yield from room_cases(root / "r2v_floorplans" / "dev" / "plans.json", rng)
-    yield from plot_cases(root / "bubenec_city" / "dev" / "scene.json", rng)
+        yield from (case for case in facade_cases(path, rng) if rng.random() < share)
+    if alone:
+        yield from room_cases(root / "r2v_floorplans" / "dev" / "plans.json", rng)
+        yield from plot_cases(root / "bubenec_city" / "dev" / "scene.json", rng)
     yield from drawn_cases(rng, DRAWN_CASES)

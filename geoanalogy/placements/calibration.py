@@ -3,9 +3,13 @@
 Fitted by ``benchmarks/placements_calibration.py`` to the development halves of the facades, plots and rooms: evidence
 that speaks for a candidate can only raise its certainty, evidence against only lower it, so that nothing is more
 certain than a perfect copy of an example's surroundings.
+
+What some evidence is worth depends on other evidence: a row of examples says much at a column of examples and little
+where something else stands already. The last models therefore add up a few reasons, each a sum of evidence that
+saturates; they keep to the signs as well.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,11 +63,18 @@ class Calibration:
         Of the columns of evidence.
     weights : ndarray of shape (f,)
     offset : float
+    reasons : ndarray of shape (f, r)
+        Weights of the evidence in each of r reasons; nothing where evidence is only added up.
+    thresholds, worth : ndarray of shape (r,)
+        Offset of each reason's sum, and how much it counts between -1 and 1 of it; the worth is not negative.
     """
 
     names: tuple[str, ...]
     weights: Array
     offset: float
+    reasons: Array = field(default_factory=lambda: np.zeros((0, 0)))
+    thresholds: Array = field(default_factory=lambda: np.zeros(0))
+    worth: Array = field(default_factory=lambda: np.zeros(0))
 
     def value(self, evidence: Array) -> Array:
         """Log odds of rows of evidence.
@@ -76,8 +87,13 @@ class Calibration:
         -------
         ndarray of shape (n,)
         """
-        # A product so small is summed faster than it is spread over threads.
-        return np.einsum("nf,f->n", evidence, self.weights) + self.offset
+        # Products so small are summed faster than they are spread over threads.
+        value = np.einsum("nf,f->n", evidence, self.weights) + self.offset
+        if len(self.worth):
+            value += np.einsum(
+                "nr,r->n", np.tanh(np.einsum("nf,fr->nr", evidence, self.reasons) + self.thresholds), self.worth
+            )
+        return value
 
     def certainty(self, evidence: Array) -> Array:
         """Probability of rows of evidence.
@@ -115,12 +131,13 @@ class Judgement:
     choose: Calibration | None = None
 
     @classmethod
-    def of(cls, table: dict[str, dict[str, float]], single: tuple[str, ...] = SINGLE) -> "Judgement":
+    def of(cls, table: dict[str, dict[str, str]], single: tuple[str, ...] = SINGLE) -> "Judgement":
         """The models of a table of weights by the name of the evidence.
 
         Parameters
         ----------
-        table : dict of str to dict of str to float
+        table : dict of str to dict of str to str
+            By stage, then by evidence: its weight, and those in each reason; with the `OFFSET` and the `WORTH`.
         single : tuple of str
             Names of the evidence of a single candidate.
 
@@ -134,14 +151,20 @@ class Judgement:
             "settle": single + AMONG + SETTLED,
             "choose": single + AMONG + SETTLED,
         }
-        return cls(
-            **{
-                stage: Calibration(
-                    names[stage], np.array([weights.get(n, 0.0) for n in names[stage]]), weights["offset"]
-                )
-                for stage, weights in table.items()
-            }
-        )
+        return cls(**{stage: _read(names[stage], rows) for stage, rows in table.items()})
+
+
+def _read(names: tuple[str, ...], rows: dict[str, str]) -> Calibration:
+    """The model of one stage of the table."""
+    offset, *thresholds = map(float, rows[OFFSET].split())
+    nothing = "0" + " 0" * len(thresholds)
+    weights = np.array([rows.get(name, nothing).split() for name in names], dtype=np.float64)
+    worth = np.array(rows.get(WORTH, "").split(), dtype=np.float64)
+    return Calibration(names, weights[:, 0], offset, weights[:, 1:], np.array(thresholds), worth)
+
+
+#: Rows of the table that are no evidence: the offset and the thresholds of the reasons; the worth of the reasons.
+OFFSET, WORTH = "offset", "worth of reasons"
 
 
 #: Where examples were drawn in the very arrangement: their rows and columns go on.

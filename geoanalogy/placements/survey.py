@@ -20,10 +20,14 @@ from .signature import Signature, signature
 
 Array = NDArray[np.float64]
 
-#: Candidates that get a full look, and that may be added when rows and columns are continued.
-LOOKED_AT, GROWN = 300, 150
+#: Least and most candidates that get a full look, and the certainty at a glance from which they do.
+LOOKED_AT, WORTH_A_LOOK = (100, 600), 0.25
+#: Candidates that get one where a parent holds one placement: none is likely at a glance.
+LOOKED_AT_ALONE = 300
+#: Candidates that may be added when rows and columns are continued.
+GROWN = 150
 #: Overlap from which two candidates are the same.
-SAME = 0.7
+SAME = 0.65
 #: Share of the smaller of both that a candidate and an example share at most.
 EXAMPLE_AGAIN = 0.4
 #: Meetings of rows and columns that are tried for every one that may be added.
@@ -35,6 +39,8 @@ ALIKE, SURELY_ALIKE, UNLIKE = 0.85, 0.9, 0.7
 AROUND = 0.3
 #: By what the odds are multiplied of what keeps to what all examples keep to exactly, and of what does not.
 EXACT, INEXACT = 3.0, 0.1
+#: Examples from which what they keep to exactly is no accident: elements then predict all that is meant, rows nothing.
+FEW_EXACT = 3
 #: Certainty from which a candidate's extents are continued across the arrangement.
 CONTINUED = 0.15
 
@@ -210,13 +216,16 @@ def search(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
     worth = judge.glance.certainty(quick)
     new = _unlike_shown(proposed, shown)
     proposed, worth = proposed[new], worth[new]
-    boxes = proposed[thin(proposed, worth, SAME, LOOKED_AT)]
+    least, most = LOOKED_AT if judge.choose is None else (LOOKED_AT_ALONE, LOOKED_AT_ALONE)
+    boxes = proposed[_worth_a_look(proposed, worth, least, most)]
     similar, contrast, exact, single = look(lesson, arrangement, boxes, present)
     company = Company(boxes, present, anchors_of(lesson, arrangement, np.concatenate([boxes, present])))
     among = company.evidence(similar[:, lesson.positive].max(axis=1, initial=0.0))
     first = judge.look.certainty(np.hstack([single, among]))
-    more = _continued(boxes, first, present, arrangement)
-    more = more[_unlike_shown(more, shown)]
+    more = np.zeros((0, 4))
+    if len(lesson.positive) < FEW_EXACT or not lesson.habits.exact:
+        more = _continued(boxes, first, present, arrangement)
+        more = more[_unlike_shown(more, shown)]
     if len(more):
         more_similar, more_contrast, more_exact, more_single = look(lesson, arrangement, more, present)
         boxes = np.concatenate([boxes, more])
@@ -244,6 +253,12 @@ def search(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
         Survey(boxes, similar, contrast, certainty, predicted, repeats, chosen),
         Grounds(company, single, among, settled),
     )
+
+
+def _worth_a_look(boxes: Array, worth: Array, least: int, most: int) -> NDArray[np.intp]:
+    """The proposals that differ and look good at a glance: few where one glance tells, many where it does not."""
+    differing = thin(boxes, worth, SAME, most)
+    return differing[: max(int((worth[differing] >= WORTH_A_LOOK).sum()), least)]
 
 
 def more_certain(certainty: Array, value: Array) -> Array:
