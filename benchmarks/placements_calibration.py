@@ -38,7 +38,7 @@ SHARPNESS = 30.0
 #: What a place that is right but for a mirroring is worth in rooms: which corner was taken is one choice of several.
 MIRRORED_WORTH = 0.4
 #: Sums that saturate, beside the plain one, in the last model: more of them fit better and judge no better.
-REASONS = 1
+REASONS = 6
 #: Fits of them from other weights, of which the best is kept, and the least worth of a reason: at 0 it learns no more.
 STARTS, LEAST_WORTH = 3, 0.25
 #: Of how many wrong candidates one is fitted, and how many steps a fit takes at most.

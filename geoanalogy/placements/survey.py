@@ -22,8 +22,9 @@ Array = NDArray[np.float64]
 
 #: Least and most candidates that get a full look, and the certainty at a glance from which they do.
 LOOKED_AT, WORTH_A_LOOK = (100, 600), 0.25
-#: Candidates that get one where a parent holds one placement: none is likely at a glance.
-LOOKED_AT_ALONE = 300
+#: Candidates that get one where a parent holds one placement, none of which is likely at a glance, and the overlap from
+#: which two of those are the same.
+LOOKED_AT_ALONE, SAME_ALONE = 300, 0.7
 #: Candidates that may be added when rows and columns are continued.
 GROWN = 150
 #: Overlap from which two candidates are the same.
@@ -216,8 +217,10 @@ def search(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
     worth = judge.glance.certainty(quick)
     new = _unlike_shown(proposed, shown)
     proposed, worth = proposed[new], worth[new]
-    least, most = LOOKED_AT if judge.choose is None else (LOOKED_AT_ALONE, LOOKED_AT_ALONE)
-    boxes = proposed[_worth_a_look(proposed, worth, least, most)]
+    if judge.choose is None:
+        boxes = proposed[_worth_a_look(proposed, worth)]
+    else:
+        boxes = proposed[thin(proposed, worth, SAME_ALONE, LOOKED_AT_ALONE)]
     similar, contrast, exact, single = look(lesson, arrangement, boxes, present)
     company = Company(boxes, present, anchors_of(lesson, arrangement, np.concatenate([boxes, present])))
     among = company.evidence(similar[:, lesson.positive].max(axis=1, initial=0.0))
@@ -255,10 +258,10 @@ def search(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
     )
 
 
-def _worth_a_look(boxes: Array, worth: Array, least: int, most: int) -> NDArray[np.intp]:
+def _worth_a_look(boxes: Array, worth: Array) -> NDArray[np.intp]:
     """The proposals that differ and look good at a glance: few where one glance tells, many where it does not."""
-    differing = thin(boxes, worth, SAME, most)
-    return differing[: max(int((worth[differing] >= WORTH_A_LOOK).sum()), least)]
+    differing = thin(boxes, worth, SAME, LOOKED_AT[1])
+    return differing[: max(int((worth[differing] >= WORTH_A_LOOK).sum()), LOOKED_AT[0])]
 
 
 def more_certain(certainty: Array, value: Array) -> Array:
