@@ -38,6 +38,8 @@ class Misses:
 
     Attributes
     ----------
+    seen : Sighting
+        The elements of the rows, as their samples see them.
     place : ndarray of shape (relations, n)
         Signed distance in the plane from the level set, in scene units.
     turn : ndarray of shape (relations, n)
@@ -48,6 +50,7 @@ class Misses:
         Direction of length 1 in which a sample would have to move for `place` to grow.
     """
 
+    seen: Sighting
     place: Array
     turn: Array
     allowed: Bools
@@ -106,7 +109,9 @@ class Batch:
         result.unit = self.unit[which]
         result.arrangement = self.arrangement[which]
         rows = self.rows(which)
-        result._parts = {r.element: self._parts[r.element].among(r, r.near(position, angle, reach, turn)) for r in rows}
+        result._parts = {
+            r.element: self._parts[r.element].among(r, *r.near(position, angle, reach, turn)) for r in rows
+        }
         return result
 
     def rows(self, which: Indices) -> "list[Rows]":
@@ -182,6 +187,8 @@ class _Part:
         How many each has.
     pair_start, feature_start : ndarray of int
         Counted from the first entry, and the first pair, of their importance.
+    has_own_elements : bool
+        Whether every entry has an element of its own, in order.
     """
 
     element: ElementType
@@ -201,6 +208,7 @@ class _Part:
     accuracy: Array
     pair_start: Indices
     feature_start: Indices
+    has_own_elements: bool = False
 
     @classmethod
     def of(
@@ -237,14 +245,17 @@ class _Part:
             turn=np.concatenate([a.turn for a in answers], axis=1),
             inner=np.concatenate([a.inner for a in answers]),
             contact=np.concatenate([a.contact for a in answers]),
-            directed=np.concatenate([importances[k].directed(element) for k, _ in asked]),
+            directed=np.concatenate([importances[k].directed(element, a.sample) for k, a in asked]),
             accuracy=np.concatenate([a.accuracy for a in answers]),
             pair_start=np.concatenate([a.pair_start for a in answers]),
             feature_start=np.concatenate([a.feature_start for a in answers]),
         )
 
-    def among(self, rows: "Rows", kept: Bools) -> "_Part":
-        """The same pose by pose, with some of the pairs of rows."""
+    def among(self, rows: "Rows", kept: Bools, edges: Bools | None) -> "_Part":
+        """The same pose by pose, with some of the pairs of rows, and of the edges of their elements.
+
+        Every entry has an element of its own.
+        """
         entry = np.repeat(kept, rows.per_pair)
         chosen = rows.entry[entry]
         answering = np.add.reduceat(kept.astype(np.intp), rows.feature_start) if len(kept) else np.zeros(0, np.intp)
@@ -256,7 +267,9 @@ class _Part:
             entries=entries,
             pairs=pairs,
             features=features,
-            target=self.target[chosen],
+            elements=rows.elements.take(self.element, np.flatnonzero(entry), edges),
+            target=np.arange(len(chosen)),
+            has_own_elements=True,
             sample=self.sample[chosen],
             value=self.value[:, chosen],
             weight=self.weight[:, chosen],
@@ -299,6 +312,8 @@ class Rows:
         self.poses = len(which)
         entries = part.entries[which]
         first_row = _first(entries)
+        #: Whether the rows are all the entries there are, in order.
+        self._whole = len(which) == len(part.entries) and bool((which == np.arange(len(which))).all())
         self.entry = ranges(_first(part.entries)[which], entries)
         self.pose = np.repeat(np.arange(len(which)), entries)
         pairs = part.pairs[which]
@@ -310,7 +325,7 @@ class Rows:
         feature = ranges(_first(part.features)[which], features)
         self.feature_start = part.feature_start[feature] + np.repeat(first_pair, features)
         self._feature_pose = np.repeat(np.arange(len(which)), features)
-        self.weight = part.weight[:, self.entry]
+        self.weight = part.weight if self._whole else part.weight[:, self.entry]
         width = batch.unit[which, 0]
         #: Half-width of the level sets of each row.
         self.width = width[self.pose] if np.ptp(width) else np.full(1, width[0])
@@ -340,16 +355,20 @@ class Rows:
     @cached_property
     def directed(self) -> Bools:
         """Which rows ask for a direction; shape (n,)."""
-        return self._part.directed[self.entry]
+        return self._part.directed if self._whole else self._part.directed[self.entry]
 
     @cached_property
-    def _elements(self) -> Elements:
+    def elements(self) -> Elements:
+        """The element of each row."""
+        if self._whole and self._part.has_own_elements:
+            return self._part.elements
         return self._part.elements.take(self._part.element, self._part.target[self.entry])
 
     @cached_property
     def _asked(self) -> tuple[Array, Array, Array, Bools, Bools]:
         """Sample (x and y), value, turn, inner and contact of each row."""
-        part, e = self._part, self.entry
+        part = self._part
+        e = slice(None) if self._whole else self.entry
         near = part.contact[e] < self.width
         return part.sample[e].T.copy(), part.value[:, e], part.turn[:, e], part.inner[e], near
 
@@ -387,7 +406,7 @@ class Rows:
         x, y = self.arms(angle)
         x += position[self.pose, 0]
         y += position[self.pose, 1]
-        seen = Sighting(self._elements, element, x, y)
+        seen = Sighting(self.elements, element, x, y)
         same = side(element, seen)[:, 0] == inner
         # Beyond a segment's ends no distance has a side.
         signed = same if element is not ElementType.SEGMENT else same | ~seen.segment.between[:, 0]
@@ -405,7 +424,7 @@ class Rows:
                 grows[k] = np.where(signed, way, -way) if is_length(relation) else way
         # At a contact, on either side of it, the side means nothing but to the distance itself.
         allowed = near | (turning(element, seen)[:, 0] < self.width) | same
-        return Misses(place, off, allowed, grows)
+        return Misses(seen, place, off, allowed, grows)
 
     def _off_level_set(self, relation: Positional, value: Array, seen: Sighting, same: Bools) -> Array:
         """Difference in value divided by the slope: distance in the plane. Beyond a boundary distances are negative."""
@@ -438,8 +457,8 @@ class Rows:
         kernel *= misses.allowed
         return kernel
 
-    def near(self, position: Array, angle: Array, reach: float, turn: float) -> Bools:
-        """The pairs of features that poses can meet without going far.
+    def near(self, position: Array, angle: Array, reach: float, turn: float) -> tuple[Bools, Bools | None]:
+        """The pairs of features that poses can meet without going far, and the edges that they come near to.
 
         Parameters
         ----------
@@ -452,16 +471,19 @@ class Rows:
 
         Returns
         -------
-        ndarray of shape (pairs,), bool
+        pairs : ndarray of shape (pairs,), bool
+        edges : ndarray of shape (edges,), bool, or None
+            Of the rows' elements; None: all.
         """
         if not len(self.entry):
-            return np.zeros(0, dtype=bool)
+            return np.zeros(0, dtype=bool), None
         misses = self.misses(position, angle)
-        arm = np.hypot(*self._asked[0])
-        met = (np.abs(misses.place) < (WIDE_WIDTH + reach) * self.width + turn * arm).any(axis=0)
+        far = reach * self.width + turn * np.hypot(*self._asked[0])
+        met = (np.abs(misses.place) < WIDE_WIDTH * self.width + far).any(axis=0)
         if self._part.elements.heading(self.element) is not None:  # the same everywhere
             met &= (np.abs(misses.turn) < self._batch.query.options.direction_width + turn).any(axis=0)
-        return np.logical_or.reduceat(met, self.pair_start)
+        edges = misses.seen.reachable_edges(far) if self.element is ElementType.POLYGON else None
+        return np.logical_or.reduceat(met, self.pair_start), edges
 
     def directional(self, misses: Misses) -> Array:
         """The directional level sets' kernel, to be multiplied with the positional one.

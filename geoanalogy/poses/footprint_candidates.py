@@ -218,8 +218,7 @@ class _LevelSets:
             cyclic = np.isfinite(period)
             value[k, cyclic] %= period[cyclic]
             periods.append(period.astype(np.float32))
-        size = np.diff(np.append(a.pair_start, len(a.target)))
-        weight = a.weight * np.repeat(a.accuracy, size)
+        weight = a.weight * np.repeat(a.accuracy, a.per_pair)
         return cls(
             element=element,
             relations=a.relations,
@@ -230,7 +229,7 @@ class _LevelSets:
             fall=(weight / (WIDTH * importance.width)).astype(np.float32),
             turn=a.turn.astype(np.float32),
             period=periods,
-            features=_runs(np.arange(len(size)), size, a.feature_start),
+            features=_features(a, np.zeros(len(a.accuracy), dtype=np.intp), np.arange(len(a.accuracy)), 1)[0],
             tolerance=importance.query.options.direction_width,
         )
 
@@ -248,17 +247,16 @@ class _LevelSets:
         _LevelSets
             One per direction.
         """
-        size = np.diff(np.append(a.pair_start, len(a.target)))
         which, pair = np.nonzero(kernel.any(axis=1))
-        entry = ranges(a.pair_start[pair], size[pair])
-        factor = np.repeat(kernel[which, :, pair].T, size[pair], axis=1).astype(np.float32)
+        size = a.per_pair[pair]
+        entry = ranges(a.pair_start[pair], size)
+        factor = np.repeat(kernel[which, :, pair].T.astype(np.float32), size, axis=1)
         value, turn = self.value[:, entry], self.turn[:, entry]
         weight, fall = self.weight[:, entry] * factor, self.fall[:, entry] * factor
         target, sample = self.target[entry], self.sample[entry]
         period = [None if p is None else p[entry] for p in self.period]
-        bounds = np.searchsorted(which, np.arange(len(kernel) + 1))
-        ends = np.append(0, np.cumsum(size[pair]))[bounds]
-        for first, last, start, end in zip(bounds, bounds[1:], ends, ends[1:], strict=False):
+        ends = np.bincount(which, weights=size, minlength=len(kernel)).cumsum().astype(np.intp).tolist()
+        for start, end, features in zip([0, *ends], ends, _features(a, which, pair, len(kernel)), strict=False):
             part = slice(start, end)
             yield replace(
                 self,
@@ -269,7 +267,7 @@ class _LevelSets:
                 fall=fall[:, part],
                 turn=turn[:, part],
                 period=[None if p is None else p[part] for p in period],
-                features=_runs(pair[first:last], size, a.feature_start),
+                features=features,
             )
 
     def add(self, total: Array32, fields: Fields, samples: Indices, direction: Array32 | None = None) -> None:
@@ -317,16 +315,24 @@ class _LevelSets:
         return met
 
 
-def _runs(pair: Indices, size: Indices, feature_start: Indices) -> list[tuple[int, int, int]]:
-    """Of every feature that some pairs belong to: its first entry, its end, and the entries of a pair of it.
+def _features(a: Answers, which: Indices, pair: Indices, count: int) -> list[list[tuple[int, int, int]]]:
+    """Of the pairs chosen in several directions, per direction: the features they belong to.
 
-    `pair`: ascending; `size`: entries of all pairs; `feature_start`: first of all pairs of each feature.
+    `which`: number of the direction, ascending; `pair`: ascending in each; `count`: number of directions.
     """
-    feature = np.searchsorted(feature_start, pair, side="right")
-    first = np.flatnonzero(np.diff(feature, prepend=0))
-    ends = np.append(0, np.cumsum(size[pair]))
-    bounds = ends[np.append(first, len(pair))].tolist()
-    return list(zip(bounds, bounds[1:], size[pair[first]].tolist(), strict=False))
+    features: list[list[tuple[int, int, int]]] = [[] for _ in range(count)]
+    owner = a.source_feature[pair].tolist()
+    direction, before, end = -1, -1, 0
+    for k, of, size in zip(which.tolist(), owner, a.per_pair[pair].tolist(), strict=True):
+        if k != direction:
+            direction, before, end = k, -1, 0
+        start = end
+        if of == before:
+            start = features[k].pop()[0]
+        end += size
+        features[k].append((start, end, size))
+        before = of
+    return features
 
 
 def directions(importance: Importance) -> list[float]:
@@ -347,8 +353,7 @@ def directions(importance: Importance) -> list[float]:
         quarters = base + importance.query.pose.angle + np.arange(4) * np.pi / 2
         return [float(q) for q in quarters[importance.query.is_upright(quarters, importance.mirrored)]]
     e = importance.target.elements
-    pair_of = np.repeat(np.arange(len(a.pair_start)), np.diff(np.append(a.pair_start, len(a.target))))
-    strength = a.weight.sum(axis=0) * a.accuracy[pair_of]
+    strength = a.weight.sum(axis=0) * np.repeat(a.accuracy, a.per_pair)
     # A suggestion per entry and edge of its segment.
     edge, entry = np.nonzero(e.edge_segment[:, None] == a.target)
     angle = (e.edge_heading[edge] + a.turn[0, entry]) % (2 * np.pi)

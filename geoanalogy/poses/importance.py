@@ -1,6 +1,7 @@
 """How well poses answer the example: the importance of section 4.5, evaluated exactly at any pose."""
 
 import copy
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,11 +10,12 @@ from ..relations.elements import ElementType
 from ..relations.table import Positional
 from .arrangement import Arrangement
 from .batch import Batch
-from .matching import Sense, answers
+from .matching import Sense, accuracies, answers
 from .query import Query
 from .results import RelationShare
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
 
 
 class Importance:
@@ -30,9 +32,18 @@ class Importance:
     sense : Sense
     scale : float
         Size of the target in proportion to the example: lengths and the footprint are multiplied by it.
+    accuracy : mapping of ElementType to ndarray, optional
+        The features' matching accuracies, where they are known: they are the same in all senses and at all scales.
     """
 
-    def __init__(self, query: Query, target: Arrangement, sense: Sense, scale: float = 1.0) -> None:
+    def __init__(
+        self,
+        query: Query,
+        target: Arrangement,
+        sense: Sense,
+        scale: float = 1.0,
+        accuracy: Mapping[ElementType, Array] | None = None,
+    ) -> None:
         self.query = query
         self.target = target
         self.sense = sense
@@ -41,7 +52,7 @@ class Importance:
         #: Whether poses are mirrored: an example that is mirrored itself has answers the other way about.
         self.mirrored = sense.mirrored != query.pose.mirrored
         self.samples = query.samples * scale * ((1.0, -1.0) if self.mirrored else (1.0, 1.0))
-        self.answers = answers(query, target, sense)
+        self.answers = answers(query, accuracies(query, target) if accuracy is None else accuracy, sense)
 
     def of_strongest(self, share: float) -> "Importance":
         """The same without the pairs of features that contribute little: cheaper, and enough to find where maxima are.
@@ -69,11 +80,10 @@ class Importance:
         """The greatest importance any pose here can have: what every feature's best pair would give."""
         total = 0.0
         for a in self.answers.values():
-            pairs = a.accuracy * np.add.reduceat(a.weight.sum(axis=0), a.pair_start)
-            total += float(np.maximum.reduceat(pairs, a.feature_start).sum())
+            total += float(np.maximum.reduceat(a.possible, a.feature_start).sum())
         return total / self.query.total if self.query.total else 0.0
 
-    def directed(self, element: ElementType) -> NDArray[np.bool_]:
+    def directed(self, element: ElementType, sample: Indices) -> NDArray[np.bool_]:
         """Which entries ask for a direction.
 
         Where sides and corners of a footprint are samples, their places tell the direction, and better: at a contact
@@ -83,15 +93,16 @@ class Importance:
         Parameters
         ----------
         element : ElementType
+        sample : ndarray of shape (e,), int
+            The sample of each entry.
 
         Returns
         -------
         ndarray of shape (e,), bool
         """
-        a = self.answers[element]
         if not self.query.rigid or element is ElementType.SEGMENT:
-            return np.ones(len(a.sample), dtype=bool)
-        return (a.sample == 0) & (element is ElementType.POLYGON)
+            return np.ones(len(sample), dtype=bool)
+        return (sample == 0) & (element is ElementType.POLYGON)
 
     def __call__(self, position: Array, angle: Array) -> Array:
         """The importance of poses, 1 for a perfect copy.

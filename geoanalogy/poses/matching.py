@@ -1,12 +1,14 @@
 """Which features of an arrangement answer to which of the example's, and how well (sections 4.4, 4.6 and 4.8)."""
 
 import enum
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.elements import ElementType
+from ..relations.elements import ElementType, ranges
 from ..relations.table import BOUNDARY_ANGLE, SEGMENT_ANGLE, Kind, Positional
 from .arrangement import Arrangement
 from .options import PoseOptions
@@ -45,13 +47,11 @@ def matching_accuracy(source: Arrangement, target: Arrangement, element: Element
         0 where labels or roles differ.
     """
     a, b = source.elements, target.elements
-    may = np.array(
-        [
-            [s[0] == t[0] and (not options.labels or s[1:] == t[1:]) for t in target.roles[element]]
-            for s in source.roles[element]
-        ],
-        dtype=bool,
-    ).reshape(a.count(element), b.count(element))
+    # What must be equal to match: whether they are the parent's, and labels where these count.
+    roles = [[r if options.labels else r[:1] for r in x.roles[element]] for x in (source, target)]
+    known = {role: k for k, role in enumerate(dict.fromkeys(roles[0]))}
+    mine, theirs = (np.array([known.get(r, -1) for r in each], dtype=np.intp) for each in roles)
+    may = mine[:, None] == theirs
     if options.matching_accuracy == "constant":
         return may.astype(np.float64)
     if element is ElementType.POLYGON:
@@ -208,14 +208,21 @@ class Answers:
         -------
         Answers
         """
-        possible = self.accuracy * np.add.reduceat(self.weight.sum(axis=0), self.pair_start)
-        return self._take(np.flatnonzero(possible >= share * possible.max()))
+        return self._take(np.flatnonzero(self.possible >= share * self.possible.max()))
+
+    @cached_property
+    def per_pair(self) -> Indices:
+        """Number of entries of each pair."""
+        return np.diff(self.pair_start, append=len(self.target))
+
+    @cached_property
+    def possible(self) -> Array:
+        """The most that each pair can contribute."""
+        return self.accuracy * np.add.reduceat(self.weight.sum(axis=0), self.pair_start)
 
     def _take(self, pairs: Indices) -> "Answers":
-        size = np.diff(np.append(self.pair_start, len(self.target)))
-        chosen = np.zeros(len(size), dtype=bool)
-        chosen[pairs] = True
-        entry = np.flatnonzero(np.repeat(chosen, size))
+        size = self.per_pair[pairs]
+        entry = ranges(self.pair_start[pairs], size)
         source = self.source_feature[pairs]
         return Answers(
             relations=self.relations,
@@ -226,21 +233,44 @@ class Answers:
             turn=self.turn[:, entry],
             inner=self.inner[entry],
             contact=self.contact[entry],
-            pair_start=np.cumsum(np.append(0, size[pairs][:-1])),
+            pair_start=np.cumsum(size) - size,
             accuracy=self.accuracy[pairs],
             source_feature=source,
             target_feature=self.target_feature[pairs],
-            feature_start=np.flatnonzero(np.append(True, np.diff(source) != 0)),
+            feature_start=_changes(source),
         )
 
 
-def answers(query: Query, target: Arrangement, sense: Sense) -> dict[ElementType, Answers]:
-    """Pair the features asked for with those of an arrangement that may answer.
+def _changes(values: Indices) -> Indices:
+    """Where runs of equal values begin."""
+    changed = np.ones(len(values), dtype=bool)
+    np.not_equal(values[1:], values[:-1], out=changed[1:])
+    return np.flatnonzero(changed)
+
+
+def accuracies(query: Query, target: Arrangement) -> dict[ElementType, Array]:
+    """I_m of section 4.4 for all types of element that an example asks for.
 
     Parameters
     ----------
     query : Query
     target : Arrangement
+
+    Returns
+    -------
+    dict of ElementType to ndarray of shape (source features, target features)
+    """
+    return {e: matching_accuracy(query.arrangement, target, e, query.options) for e in query.questions}
+
+
+def answers(query: Query, accuracy: Mapping[ElementType, Array], sense: Sense) -> dict[ElementType, Answers]:
+    """Pair the features asked for with those of an arrangement that may answer.
+
+    Parameters
+    ----------
+    query : Query
+    accuracy : mapping of ElementType to ndarray of shape (source features, target features)
+        As `accuracies` gives them for the arrangement.
     sense : Sense
 
     Returns
@@ -250,35 +280,33 @@ def answers(query: Query, target: Arrangement, sense: Sense) -> dict[ElementType
     """
     result = {}
     for element, question in query.questions.items():
-        accuracy = matching_accuracy(query.arrangement, target, element, query.options)
-        entry, feature = np.nonzero(accuracy[question.feature] > LEAST_ACCURACY)
         seen = [s for s in (_seen_through(y, question, element) for y in sense.symmetries) if s is not None]
-        if not len(entry) or not seen:
+        # Entries of one feature are neighbours, and so are its pairs here.
+        first = _changes(question.feature)
+        asking = question.feature[first]
+        source, feature = np.nonzero(accuracy[element][asking] > LEAST_ACCURACY)
+        if not len(source) or not seen:
             continue
-        count = len(entry)
-        entry, feature = np.tile(entry, len(seen)), np.tile(feature, len(seen))
-        through = np.repeat(np.arange(len(seen)), count)
-        source = question.feature[entry]
-        order = np.lexsort((question.sample[entry], through, feature, source))
-        entry, feature, source, through = entry[order], feature[order], source[order], through[order]
-        changes = (np.diff(source) != 0) | (np.diff(feature) != 0) | (np.diff(through) != 0)
-        start = np.flatnonzero(np.append(True, changes))
-        pair_source, pair_feature = source[start], feature[start]
+        through = np.tile(np.arange(len(seen)), len(source))
+        source, feature = np.repeat(source, len(seen)), np.repeat(feature, len(seen))
+        size = np.diff(first, append=len(question.feature))[source]
+        entry = ranges(first[source], size)
+        source, seen_by = asking[source], np.repeat(through, size)
         value, turn = (np.array([s[k] for s in seen]) for k in (0, 1))
         inner = np.array([s[2] for s in seen])
         result[element] = Answers(
             relations=question.relations,
-            target=feature,
+            target=np.repeat(feature, size),
             sample=question.sample[entry],
             weight=question.weight[:, entry],
-            value=value[through, :, entry].T,
-            turn=turn[through, :, entry].T,
-            inner=inner[through, entry],
+            value=value[seen_by, :, entry].T,
+            turn=turn[seen_by, :, entry].T,
+            inner=inner[seen_by, entry],
             contact=question.contact[entry],
-            pair_start=start,
-            accuracy=accuracy[pair_source, pair_feature],
-            source_feature=pair_source,
-            target_feature=pair_feature,
-            feature_start=np.flatnonzero(np.append(True, np.diff(pair_source) != 0)),
+            pair_start=np.cumsum(size) - size,
+            accuracy=accuracy[element][source, feature],
+            source_feature=source,
+            target_feature=feature,
+            feature_start=_changes(source),
         )
     return result

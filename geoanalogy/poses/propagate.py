@@ -19,7 +19,7 @@ from .fields import Fields
 from .footprint_candidates import SLACK, directions_read, find_footprint_candidates
 from .importance import Importance
 from .kernels import wrap
-from .matching import Sense, senses
+from .matching import Sense, accuracies, senses
 from .options import PoseOptions
 from .pose import Pose, footprint_ring
 from .query import Query
@@ -186,9 +186,10 @@ class PoseModel:
         Importance
             Those that cannot reach the threshold are left out.
         """
+        accuracy = accuracies(self.query, target)
         for scale in self.scales(target):
             for sense in senses(self.query):
-                importance = Importance(self.query, target, sense, scale)
+                importance = Importance(self.query, target, sense, scale, accuracy)
                 if self.query.total and importance.bound >= self.options.threshold:
                     yield importance
 

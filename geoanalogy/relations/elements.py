@@ -206,13 +206,15 @@ class Elements:
             **together,
         )
 
-    def take(self, element: ElementType, rows: Indices) -> "Elements":
+    def take(self, element: ElementType, rows: Indices, edges_kept: NDArray[np.bool_] | None = None) -> "Elements":
         """Chosen elements of one type, each as a feature of its own, as often as it is chosen.
 
         Parameters
         ----------
         element : ElementType
         rows : ndarray of shape (n,), int
+        edges_kept : ndarray of shape (e,), bool, optional
+            Of all edges, those that the elements keep; None: all.
 
         Returns
         -------
@@ -232,6 +234,9 @@ class Elements:
             else:
                 count = np.diff(first)[rows]
                 edges, owner = ranges(first[rows], count), np.repeat(np.arange(len(rows)), count)
+            if edges_kept is not None:
+                kept = edges_kept[edges]
+                edges, owner = edges[kept], owner[kept]
         return replace(
             self,
             polygons=(),

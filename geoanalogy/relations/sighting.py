@@ -115,6 +115,27 @@ class Sighting(Observation):
         e = self.elements
         return self._nearest_of_own(e.edge_polygon, e.edge_ring_offset, np.zeros((len(e.edge_polygon), 2), dtype=bool))
 
+    def reachable_edges(self, reach: Array) -> NDArray[np.bool_]:
+        """The edges of polygons that a boundary's nearest place may come to lie on.
+
+        Parameters
+        ----------
+        reach : ndarray of shape (n,)
+            How far each point may move, scene units.
+
+        Returns
+        -------
+        ndarray of shape (edges,), bool
+        """
+        e = self.elements
+        x = self._x[e.edge_polygon] - e.edge_start[:, 0]
+        y = self._y[e.edge_polygon] - e.edge_start[:, 1]
+        along = np.clip(x * e.edge_direction.real + y * e.edge_direction.imag, 0.0, e.edge_length)
+        distance = np.hypot(x - along * e.edge_direction.real, y - along * e.edge_direction.imag)
+        farthest = self.boundary.distance[:, 0] + 2 * reach
+        # A little more: the nearest edge itself is always among them.
+        return distance <= (1 + ZERO_LENGTH) * farthest[e.edge_polygon] + ZERO_LENGTH
+
     def away(self, nearest: Nearest) -> Directions:
         """Direction from nearest places to the points: where the distance grows.
 

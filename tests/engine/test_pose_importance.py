@@ -288,6 +288,15 @@ def test_refinement_leads_back_to_the_example(footprint):
     assert value == pytest.approx(importance(position, angle))
 
 
+@pytest.mark.parametrize("share", [0.0, 0.3])
+def test_of_a_footprint_only_segments_and_what_polygons_are_to_its_centre_ask_for_directions(share):
+    importance = importance_of(scene_of(BEDROOM), BED_POSE, BED)
+    for rows in Batch([importance], share).rows(np.zeros(2, dtype=np.intp)):
+        sample = np.tile(importance.answers[rows.element].strongest(share).sample, 2)
+        expected = {ElementType.SEGMENT: sample >= 0, ElementType.POLYGON: sample == 0}.get(rows.element, sample < 0)
+        assert np.array_equal(rows.directed, expected)
+
+
 @pytest.mark.parametrize(("promise", "left"), [(0.5, [0, 2]), (0.9, [0, 1, 2])])
 def test_candidates_that_cannot_stand_are_left_out_unless_they_promise_most(promise, left):
     importance = importance_of(scene_of(BEDROOM), BED_POSE, BED)

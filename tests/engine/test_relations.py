@@ -405,6 +405,21 @@ def test_relations_do_not_depend_on_how_the_ring_was_drawn(outline, points, shif
         assert sorted(after.ravel()) == pytest.approx(sorted(before.ravel()), abs=1e-9), relation.name
 
 
+@pytest.mark.parametrize("outline", [UNIT_SQUARE, L_ROOM, STAR], ids=["square", "L", "star"])
+def test_edges_out_of_reach_are_never_the_nearest(outline):
+    rng = np.random.default_rng(4)
+    points, reach = rng.uniform(-1, 3, (200, 2)), rng.uniform(0, 0.5, 200)
+    elements = Elements.of([Polygon(outline)]).take(ElementType.POLYGON, np.zeros(200, dtype=np.intp))
+    kept = Sighting(elements, ElementType.POLYGON, *points.T).reachable_edges(reach)
+    assert 200 < kept.sum() < len(kept)
+    fewer = elements.take(ElementType.POLYGON, np.arange(200), kept)
+    way = rng.uniform(0, 2 * np.pi, 200)
+    there = points + reach[:, None] * np.column_stack([np.cos(way), np.sin(way)])
+    before, after = (Sighting(e, ElementType.POLYGON, *there.T).boundary for e in (elements, fewer))
+    assert np.array_equal(before.distance, after.distance)
+    assert np.array_equal(before.tangent, after.tangent)
+
+
 @given(OUTLINES, PLACES)
 def test_boundary_is_the_nearest_segment(outline, points):
     seen = observe(outline, *points)
