@@ -24,7 +24,7 @@ from .refinement import Refined, refine
 from .transformation import Nodes
 
 #: Alignments, chains and sets of correspondences that become candidates at most.
-MOST_ALIGNED, MOST_CHAINED, MOST_CLUSTERS = 45, 45, 30
+MOST_ALIGNED, MOST_CHAINED, MOST_CLUSTERS = 60, 60, 40
 #: Candidates of chains, alignments, sets and groups that are kept as the best of their kind: of each place, and in all.
 #: What a part was cut from brings fewer lines onto lines than what is wrong, but its chain is as good.
 QUOTAS = ((4, 14), (3, 10), (1, 4), (2, 6))
