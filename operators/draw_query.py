@@ -3,9 +3,10 @@
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, FloatVectorProperty, StringProperty
 
+from ..geoanalogy.blender.overlay import Overlay
 from ..geoanalogy.blender.regions.drawings import read_drawn_lines
 from ..geoanalogy.blender.regions.queries import add_query
-from ..geoanalogy.blender.regions.sketch import QueryOverlay, QuerySketch
+from ..geoanalogy.blender.regions.sketch import QuerySketch
 from ..geoanalogy.errors import InputError
 from .edit import needs_object_mode
 from .view_drawing import DONE_EVENTS, ViewDrawing
@@ -74,7 +75,7 @@ class GEOANALOGY_OT_draw_query(ViewDrawing, bpy.types.Operator):
         self.points.clear()
         self._dragging = False
         context.workspace.status_text_set(f"{HELP[self.mode]} — Esc: cancel")
-        return self.begin(context, QueryOverlay(self._sketch), "PAINT_CROSS" if self.mode == "BRUSH" else "CROSSHAIR")
+        return self.begin(context, Overlay(self._sketch.shapes), "PAINT_CROSS" if self.mode == "BRUSH" else "CROSSHAIR")
 
     def modal(self, context, event):
         self._area.tag_redraw()

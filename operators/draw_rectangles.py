@@ -48,7 +48,7 @@ class GEOANALOGY_OT_draw_rectangles(ViewDrawing, bpy.types.Operator):
             return {"CANCELLED"}
         self.rectangles.clear()
         self._tell(context)
-        return self.begin(context, Overlay(self._sketch), "CROSSHAIR")
+        return self.begin(context, Overlay(self._sketch.shapes), "CROSSHAIR")
 
     def modal(self, context, event):
         self._area.tag_redraw()

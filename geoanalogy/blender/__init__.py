@@ -18,7 +18,7 @@ MODULES = (
     ".tree.node_tree",
     ".tree.links",
     ".tree.showing",
-    ".overlay",
+    ".unfamiliar_faces",
     ".handlers",
 )
 

@@ -1,6 +1,6 @@
 """Drawing rectangles on faces: from lines of sight to points on a face, from two corners to an object."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 import bpy
@@ -15,6 +15,7 @@ from ..poses.pose import Pose
 from ..progress import run
 from . import names
 from .holders import ensure_holder
+from .overlay import Shape
 from .reading.footprints import frame_of
 from .reading.planes import Plane
 from .tree.editing import chosen_outputs
@@ -23,6 +24,9 @@ from .tree.sites import NEARER, Site, sites_of
 from .tree.store import builds, ordered_nodes, tree_of
 
 Array = NDArray[np.float64]
+
+#: Colours of what is wanted, and of what is not.
+WANTED, UNWANTED = (0.25, 0.8, 0.45, 1.0), (0.95, 0.35, 0.25, 1.0)
 
 #: The collection that drawn rectangles are put into.
 EXAMPLES = "Examples"
@@ -327,6 +331,18 @@ class Sketch:
         away = None if self._face is None else sight_on(self._face.plane, origin, direction)
         if away is not None:
             self._end = np.asarray(origin, float) + away * np.asarray(direction, float)
+
+    def shapes(self) -> Iterator[Shape]:
+        """What is to be drawn of it, in the colours of how much it is wanted.
+
+        Yields
+        ------
+        Shape
+        """
+        current = self.current()
+        for corners, target in [*self.outlines, *([] if current is None else [(current[0], self.target)])]:
+            colour = tuple(target * a + (1.0 - target) * b for a, b in zip(WANTED, UNWANTED, strict=True))
+            yield Shape(corners.tolist(), colour, closed=True)
 
     def current(self) -> tuple[Array, Rectangle] | None:
         """The rectangle that is being dragged.

@@ -1,22 +1,17 @@
 """A query while it is being drawn: points on the plane of the drawing under the mouse, and how they are shown."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-import bpy
-import gpu
 import numpy as np
-from gpu_extras.batch import batch_for_shader
 from numpy.typing import ArrayLike, NDArray
 
+from ..overlay import Shape
 from ..reading.planes import Plane
 from ..rectangle_drawing import sight_on
 from .queries import QUERY_COLOUR, brushed
 
 Array = NDArray[np.float64]
-
-#: Width of the line in pixels.
-LINE = 2.5
 
 
 @dataclass
@@ -97,35 +92,12 @@ class QuerySketch:
         ring = brushed(flat, self.radius)
         return [self.plane.to_world(np.column_stack([np.vstack([ring, ring[:1]]), np.zeros(len(ring) + 1)]))]
 
+    def shapes(self) -> Iterator[Shape]:
+        """What is to be drawn of it.
 
-class QueryOverlay:
-    """The outline of a query that is being drawn, shown in all 3D views until it is removed.
-
-    Parameters
-    ----------
-    sketch : QuerySketch
-    """
-
-    def __init__(self, sketch: QuerySketch) -> None:
-        self._sketch = sketch
-        self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
-
-    def remove(self) -> None:
-        """Show it no longer."""
-        bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
-
-    def _draw(self) -> None:
-        for line in self._sketch.outlines():
-            _draw_line(line.tolist())
-
-
-def _draw_line(points: Sequence[Sequence[float]]) -> None:
-    gpu.state.blend_set("ALPHA")
-    shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
-    batch = batch_for_shader(shader, "LINE_STRIP", {"pos": [tuple(p) for p in points]})
-    shader.bind()
-    shader.uniform_float("viewportSize", gpu.state.viewport_get()[2:])
-    shader.uniform_float("lineWidth", LINE)
-    shader.uniform_float("color", QUERY_COLOUR)
-    batch.draw(shader)
-    gpu.state.blend_set("NONE")
+        Yields
+        ------
+        Shape
+        """
+        for line in self.outlines():
+            yield Shape(line.tolist(), QUERY_COLOUR)
