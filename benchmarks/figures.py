@@ -5,9 +5,6 @@
 Without names, all of them.
 """
 
-import argparse
-from pathlib import Path
-
 import numpy as np
 import shapely
 from scipy.ndimage import distance_transform_edt
@@ -15,6 +12,7 @@ from scipy.ndimage import distance_transform_edt
 import geoanalogy as ga
 
 from . import drawing as draw
+from .figure_command import draw_those_named
 from .studies import (
     accumulation,
     deck,
@@ -30,8 +28,6 @@ from .studies import (
 from .studies.bathrooms import ROOMS as BATHROOMS
 from .studies.bathrooms import SCENE as BARE_BATHROOMS
 from .studies.heat import HeatMap, heat_maps
-
-FOLDER = Path(__file__).resolve().parent.parent / "docs" / "figures"
 
 
 def figure_4_02():
@@ -266,24 +262,5 @@ def figure_4_21():
     return figure
 
 
-FIGURES = {name.removeprefix("figure_"): f for name, f in list(globals().items()) if name.startswith("figure_")}
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(FIGURES)}")
-    names = parser.parse_args().names
-    unknown = set(names) - set(FIGURES)
-    if unknown:
-        parser.error(f"no figure is called {', '.join(sorted(unknown))}; choose from {', '.join(FIGURES)}")
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    for name in names or FIGURES:
-        target = FOLDER / f"figure_{name}.png"
-        figure = FIGURES[name]()
-        figure.savefig(target)
-        draw.plt.close(figure)
-        print(target.relative_to(FOLDER.parent.parent))
-
-
 if __name__ == "__main__":
-    main()
+    draw_those_named(__doc__, globals())

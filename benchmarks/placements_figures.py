@@ -7,9 +7,6 @@ Without names, all of them.
 
 from __future__ import annotations
 
-import argparse
-from pathlib import Path
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -18,11 +15,11 @@ import geoanalogy as ga
 from geoanalogy.placements.signature import BOX, PARENT_BOX
 
 from . import drawing as draw
+from .figure_command import draw_those_named
 from .peers.sample_models import SampleModels
 from .studies import arrangements
 from .studies.arrangements import Arrangement
 
-FOLDER = Path(__file__).resolve().parent.parent / "docs" / "figures"
 #: Step of the heat maps, scene units.
 STEP = 0.1
 
@@ -178,18 +175,5 @@ def figure_5_13() -> Figure:
     return figure
 
 
-FIGURES = {name: made for name, made in globals().items() if name.startswith("figure_")}
-
-
-def main() -> None:
-    """Draw the figures that are named."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("names", nargs="*", choices=[*FIGURES, []], metavar="NAME", help=", ".join(FIGURES))
-    for name in parser.parse_args().names or FIGURES:
-        figure = FIGURES[name]()
-        figure.savefig(FOLDER / f"{name}.png")
-        draw.plt.close(figure)
-
-
 if __name__ == "__main__":
-    main()
+    draw_those_named(__doc__, globals())

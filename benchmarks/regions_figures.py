@@ -8,9 +8,7 @@ a mapping has a confidence, the texture fades with it.
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import shapely
@@ -23,11 +21,10 @@ import geoanalogy as ga
 from geoanalogy.regions.view import transformation_space
 
 from . import drawing as draw
+from .figure_command import draw_those_named
 from .regions_comparison import FOUND, LINKED, UNITS, correspondences, linked, methods, run
 from .regions_scenes import SCENES, Array, Scene
 from .studies import affine_strokes, limitations
-
-FOLDER = Path(__file__).resolve().parent.parent / "docs" / "figures"
 
 #: Cells of a texture along the longer side of the query, and pairs of its squares.
 CELLS, SQUARES = 90, 9
@@ -219,25 +216,5 @@ def figure_3_12() -> Figure:
     return figure
 
 
-FIGURES = {name.removeprefix("figure_"): f for name, f in list(globals().items()) if name.startswith("figure_")}
-
-
-def main() -> None:
-    """Command line."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(FIGURES)}")
-    names = parser.parse_args().names
-    unknown = set(names) - set(FIGURES)
-    if unknown:
-        parser.error(f"no figure is called {', '.join(sorted(unknown))}; choose from {', '.join(FIGURES)}")
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    for name in names or FIGURES:
-        target = FOLDER / f"figure_{name}.png"
-        figure = FIGURES[name]()
-        figure.savefig(target)
-        draw.plt.close(figure)
-        print(target.relative_to(FOLDER.parent.parent))
-
-
 if __name__ == "__main__":
-    main()
+    draw_those_named(__doc__, globals())
