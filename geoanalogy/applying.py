@@ -16,7 +16,7 @@ from .batch.tiles import PARCELS_PER_TILE, wanted_labels
 from .errors import InputError
 from .formats import obj
 from .formats.files import read_parcels
-from .formats.repair import without_overlaps
+from .formats.repair import of_few_vertices, without_overlaps
 from .geometry.mesh import Mesh
 from .geometry.scene import Scene
 from .operations.tree import OperationsTree
@@ -156,7 +156,7 @@ def read(arguments: argparse.Namespace, tree: OperationsTree) -> tuple[Scene, li
     ----------
     arguments : argparse.Namespace
     tree : OperationsTree
-        Whose parcels are not to overlap.
+        Whose parcels are not to overlap, nor to have outlines of very many vertices.
 
     Returns
     -------
@@ -169,7 +169,8 @@ def read(arguments: argparse.Namespace, tree: OperationsTree) -> tuple[Scene, li
         scene, problems = open_parcels()
     else:
         scene, problems = read_parcels(arguments.parcels, label=arguments.label, table=arguments.labels)
-    return without_overlaps(scene, wanted_labels(tree), problems), problems
+    built_on = wanted_labels(tree)
+    return without_overlaps(of_few_vertices(scene, built_on, problems), built_on, problems), problems
 
 
 def manifest_path(result: Path) -> Path:

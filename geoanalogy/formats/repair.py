@@ -11,6 +11,7 @@ from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..tolerances import (
     LEAST_SIMPLE_SHARE,
+    MOST_DRAWN,
     MOST_VERTICES,
     ON_SAME_EDGE,
     SIMPLIFIED,
@@ -71,21 +72,33 @@ def mended(file: str, outlines: Sequence[Outline], problems: list[str]) -> list[
     """
     found = []
     for outline in outlines:
-        count = sum(len(ring) for ring in outline.rings)
-        if count > MOST_VERTICES and all(np.isfinite(ring).all() for ring in outline.rings):
-            outline = _redrawn(outline, _simplified(outline.rings))
-            left = sum(len(ring) for ring in outline.rings)
-            said = f"{file}, {outline.where}: it has {count} vertices"
-            if left > MOST_VERTICES:
-                problems.append(f"{said}, and {left} when it is simplified; draw its outline with fewer")
-                continue
-            problems.append(f"{said} and has been simplified to {left}")
-        rings = _simple(outline.rings)
-        if rings is not None:
-            problems.append(f"{file}, {outline.where}: its outline touched or crossed itself and has been mended")
-            outline = _redrawn(outline, rings)
+        said = f"{file}, {outline.where}: it"
+        if all(len(ring) >= 4 and np.isfinite(ring).all() for ring in outline.rings):
+            count = _count(outline.rings)
+            # All crossings of an outline with itself are found to mend it, and they grow with the square of its edges.
+            most = MOST_DRAWN if count > MOST_DRAWN or _shape(outline.rings).is_valid else MOST_VERTICES
+            if count > most:
+                outline = _redrawn(outline, _simplified(outline.rings))
+                left = _count(outline.rings)
+                if left > MOST_DRAWN or (left > MOST_VERTICES and not _shape(outline.rings).is_valid):
+                    problems.append(f"{said} has {count} vertices, and {left} when simplified; draw it with fewer")
+                    continue
+                problems.append(f"{said} has {count} vertices and has been simplified to {left}")
+            rings = _simple(outline.rings)
+            if rings is not None:
+                problems.append(f"{file}, {outline.where}: its outline touched or crossed itself and has been mended")
+                outline = _redrawn(outline, rings)
         found.append(outline)
     return found
+
+
+def _count(rings: Sequence[Points]) -> int:
+    return sum(len(ring) for ring in rings)
+
+
+def _shape(rings: Sequence[Points]) -> shapely.Polygon:
+    """What closed rings enclose, beside the origin."""
+    return shapely.Polygon(rings[0] - rings[0][0], [ring - rings[0][0] for ring in rings[1:]])
 
 
 def _redrawn(outline: Outline, rings: Sequence[Points]) -> Outline:
@@ -105,11 +118,9 @@ def _simplified(rings: Sequence[Points]) -> list[Points]:
 
 
 def _simple(rings: Sequence[Points]) -> list[Points] | None:
-    """Rings that make a polygon; None where nothing has to be mended, or too much."""
-    if any(len(ring) < 4 or not np.isfinite(ring).all() for ring in rings):
-        return None
+    """Closed rings that make a polygon; None where nothing has to be mended, or too much."""
     shift = rings[0][0]
-    shape = shapely.Polygon(rings[0] - shift, [ring - shift for ring in rings[1:]])
+    shape = _shape(rings)
     if shape.is_valid or shapely.get_num_interior_rings(shape) != len(rings) - 1:
         return None
     parts = shapely.get_parts(shapely.make_valid(shape, method="structure", keep_collapsed=False))
@@ -156,6 +167,57 @@ def sound_parcels(file: str, scene: Scene, problems: list[str]) -> Scene:
         else:
             sound.append(p)
     return Scene(sound, scene.offset, scene.memory)
+
+
+def of_few_vertices(scene: Scene, labels: frozenset[str] | None, problems: list[str]) -> Scene:
+    """Parcels whose outlines have so few vertices that relations between all of them can be looked at.
+
+    Parameters
+    ----------
+    scene : Scene
+    labels : frozenset of str or None
+        Of the parcels that are built on, which this is about; None: all. Streets and water keep their shapes.
+    problems : list of str
+        Takes a sentence for every parcel that was simplified, or left out because that was not enough.
+
+    Returns
+    -------
+    Scene
+    """
+    kept = []
+    for p in scene.polygons:
+        count = _count(p.rings)
+        if count <= MOST_VERTICES or not (labels is None or p.label in labels):
+            kept.append(p)
+            continue
+        made = _with_few_vertices(p)
+        left = _count(made.rings)
+        if left <= MOST_VERTICES:
+            kept.append(made)
+            problems.append(f"polygon {p.id!r} has {count} vertices and has been simplified to {left}")
+        else:
+            problems.append(
+                f"polygon {p.id!r} has {count} vertices, {left} when simplified, and is left out; draw it with fewer"
+            )
+    return scene if kept == list(scene.polygons) else Scene(kept, scene.offset, scene.memory)
+
+
+def _with_few_vertices(polygon: Polygon) -> Polygon:
+    """A simplified polygon; an edge that takes the place of several keeps the label that these share."""
+    shape = shapely.simplify(polygon.shape, SIMPLIFIED * polygon.size)
+    ring = shapely.get_coordinates(shapely.orient_polygons(shape).exterior)[:-1]
+    labels = None
+    if any(polygon.segment_labels):
+        places = {point: k for k, point in enumerate(map(tuple, polygon.points.tolist()))}
+        kept = [places[point] for point in map(tuple, ring.tolist())]
+        count = len(polygon.points)
+        spans = [
+            {polygon.segment_labels[k % count] for k in range(one, one + (other - one) % count)}
+            for one, other in zip(kept, [*kept[1:], kept[0]], strict=True)
+        ]
+        labels = [span.pop() if len(span) == 1 else "" for span in spans]
+    holes = [shapely.get_coordinates(hole)[:-1] for hole in shape.interiors]
+    return Polygon(ring, polygon.label, polygon.id, holes, polygon.parent, polygon.orientation, labels)
 
 
 def without_overlaps(scene: Scene, labels: frozenset[str] | None, problems: list[str]) -> Scene:

@@ -10,7 +10,7 @@ from shapes import rectangle
 from geoanalogy import InputError, Polygon, Scene
 from geoanalogy.formats.files import read_parcels
 from geoanalogy.formats.labelling import label_by, read_table
-from geoanalogy.formats.repair import without_overlaps
+from geoanalogy.formats.repair import of_few_vertices, without_overlaps
 
 
 def parcels(folder, *features, **members):
@@ -110,9 +110,7 @@ def test_what_cannot_be_mended_is_left_out_by_name(tmp_path):
     scene, problems = read_parcels(parcels(tmp_path, *every, ([rectangle(9, 9)], PLOT)))
     assert [p.id for p in scene.polygons] == ["a"] and len(problems) == 4
     said = "\n".join(problems)
-    assert re.search(
-        r"feature 1 \(id 'f1'\): it has 3001 vertices, and \d+ when it is simplified; draw its outline", said
-    )
+    assert re.search(r"feature 1 \(id 'f1'\): it has 3001 vertices, and \d+ when simplified; draw it with fewer", said)
     assert "(id 'f0')" in said and "not finite" in said and "redraw it as a simple ring" in said
     assert "polygon 'f3': it is a sliver, 0.3 wide" in said
 
@@ -128,6 +126,47 @@ def test_far_too_many_vertices_are_simplified(tmp_path):
     assert re.search(r"feature 0 \(id 'a'\): it has 50602 vertices and has been simplified to \d\d$", said)
     (plot,) = scene.polygons
     assert len(plot.points) < 100 and plot.area == pytest.approx(np.pi * 15**2, rel=0.005) and not plot.holes
+
+
+def test_long_outlines_keep_their_shape_unless_they_are_built_on(tmp_path):
+    turn = np.linspace(0, 2 * np.pi, 5_000, endpoint=False)
+    wave = (30 + 4 * np.cos(40 * turn))[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
+    ring = wave.round(6).tolist()
+    scene, problems = read_parcels(
+        parcels(tmp_path, ([ring], {"id": "s", "label": "street"}), ([rectangle(9, 9, (50, 0))], PLOT))
+    )
+    assert problems == [] and len(scene.polygon("s").points) == 5_000
+    assert of_few_vertices(scene, frozenset({"plot"}), problems) is scene and problems == []
+    made = of_few_vertices(scene, None, problems)
+    (said,) = problems
+    assert re.fullmatch(r"polygon 's' has 5000 vertices and has been simplified to \d{3}", said)
+    assert made.polygons[1] is scene.polygons[1]
+    assert made.polygon("s").shape.symmetric_difference(scene.polygon("s").shape).area < 0.005 * scene.polygon("s").area
+
+
+def test_edges_of_a_simplified_parcel_keep_the_labels_that_they_share():
+    corners = np.array(rectangle(20, 30))
+    edges = [
+        np.linspace(one, other, 200, endpoint=False)
+        for one, other in zip(corners, np.roll(corners, -1, 0), strict=True)
+    ]
+    labels = ["street"] * 200 + ["side"] * 200 + ["garden", "shed"] * 100 + ["side"] * 200
+    plot = Polygon(np.concatenate(edges), "plot", "a", [rectangle(4, 4, (8, 8))], None, 0.0, labels)
+    made = of_few_vertices(Scene([plot]), frozenset({"plot"}), []).polygon("a")
+    assert len(made.points) == 4 and len(made.holes) == 1 and made.orientation == 0.0
+    found = dict(zip(map(tuple, made.points.round(6).tolist()), made.segment_labels, strict=True))
+    assert found == {(0, 0): "street", (20, 0): "side", (20, 30): "", (0, 30): "side"}
+
+
+def test_a_parcel_that_stays_too_long_is_left_out_by_name():
+    turn = np.linspace(0, 2 * np.pi, 1_200, endpoint=False)
+    star = (30 + 8 * (-1.0) ** np.arange(1_200))[:, None] * np.column_stack([np.cos(turn), np.sin(turn)])
+    problems = []
+    made = of_few_vertices(
+        Scene([Polygon(star, "plot", "star"), Polygon(rectangle(9, 9), "plot", "a")]), None, problems
+    )
+    assert [p.id for p in made.polygons] == ["a"]
+    assert problems == ["polygon 'star' has 1200 vertices, 1200 when simplified, and is left out; draw it with fewer"]
 
 
 def test_holes_and_parts_are_kept(tmp_path):
