@@ -77,6 +77,11 @@ class GEOANALOGY_OT_place(LongEdit, bpy.types.Operator):
         soft_max=10,
         default=_PLAIN.neighbours,
     )
+    between: BoolProperty(
+        name="Between Neighbours",
+        description="The gap between two neighbours counts where most examples lie in one: between window and door",
+        default=_PLAIN.between,
+    )
     aspect_tolerance: FloatProperty(
         name="Proportions",
         description="How far the proportions of a place may be from those of the examples",
@@ -125,6 +130,7 @@ class GEOANALOGY_OT_place(LongEdit, bpy.types.Operator):
             mirrored=self.mirrored,
             allow_overlaps=round(self.overlap, 6),
             forbid_intersections=self.forbid_intersections,
+            between=self.between,
             **tolerances,
         )
 
@@ -135,7 +141,7 @@ class GEOANALOGY_OT_place(LongEdit, bpy.types.Operator):
             layout.prop(self, name)
         if not self.more:
             return
-        for name in ("forbid_intersections", "mirrored", "overlap", "neighbours"):
+        for name in ("forbid_intersections", "mirrored", "overlap", "neighbours", "between"):
             layout.prop(self, name)
         column = layout.column()
         column.active = not self.any_size

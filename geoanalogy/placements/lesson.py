@@ -97,7 +97,7 @@ class Lesson:
         boxes = _side_by_side([k.boxes for k in kept])
         positive = np.array([t.target > 0 for t in taught])
         for key in [k for k in boxes if k.startswith(BOX + BETWEEN)]:
-            if _lies_within(boxes[key][positive, 0]).mean() < LEAST_BETWEEN:
+            if not options.between or _lies_within(boxes[key][positive, 0]).mean() < LEAST_BETWEEN:
                 del boxes[key]
         return cls(taught, Signature(boxes, _side_by_side([k.outlines for k in kept])), options)
 

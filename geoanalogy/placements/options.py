@@ -31,6 +31,8 @@ class PlacementOptions:
     forbid_intersections : bool
         Whether results that intersect elements of a label which no example intersects are removed outright (section
         5.5). They always score lower.
+    between : bool
+        Whether the gap between two neighbours counts as an element where most examples lie in one: "between A and B".
 
     Raises
     ------
@@ -46,6 +48,7 @@ class PlacementOptions:
     mirrored: bool = False
     allow_overlaps: float = 0.15
     forbid_intersections: bool = False
+    between: bool = True
 
     def __post_init__(self) -> None:
         for name in ("tau", "aspect_tolerance", "area_tolerance"):

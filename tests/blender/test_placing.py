@@ -126,6 +126,7 @@ def test_the_threshold_sifts_without_computing():
         ({"forbid_intersections": True}, {"forbid_intersections": True}),
         ({"overlap": 0.4}, {"allow_overlaps": 0.4}),
         ({"neighbours": 2}, {"neighbours": 2}),
+        ({"between": False}, {"between": False}),
         ({"aspect_tolerance": 0.5}, {"aspect_tolerance": 0.5, "area_tolerance": 1.5}),
         ({"area_tolerance": 0.7}, {"area_tolerance": 0.7}),
         ({"any_size": True}, {"aspect_tolerance": np.inf, "area_tolerance": np.inf}),

@@ -78,6 +78,8 @@ def test_what_lies_between_two_elements_has_a_relation_to_their_gap():
     model = ga.learn_placement(filling)
     assert "between basin and lamp" in model.lesson.labels
     assert values(best_in(model.place(scene), "c").rectangle) == pytest.approx((14, 2.3, 2, 1.8))
+    alone = ga.learn_placement(filling, ga.PlacementOptions(between=False)).lesson.labels
+    assert sorted(alone) == ["basin", "lamp"]
 
 
 def test_figure_5_12_a_small_kernel_tells_a_misaligned_window_from_an_aligned_one():
