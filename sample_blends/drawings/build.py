@@ -12,17 +12,25 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+from scipy.ndimage import gaussian_filter1d
 
 import geoanalogy.blender as bridge
 from geoanalogy.command_line import leave
 from geoanalogy.progress import run
 
 from .. import stage
+from .lines import Stroke
 from .picture import Edit, Picture, painted
 from .truth import FOUND, options_of, picture_of
 
 #: Pixels of the longer side of a background, which is soft, and of a rendered picture.
-BACKGROUND, RENDERED = 320, 1200
+BACKGROUND, RENDERED = 480, 1200
+
+#: What the frame leaves of the sheet on each side, as a share of it: no edge of the paper shows.
+CROPPED = 0.002
+
+#: Widths of a pen at the ends of a line and where it is pressed most, as shares of the stroke's.
+LIGHT, HEAVY = 0.4, 1.25
 
 #: Depth of the paper below the lines, in sizes of the sheet: below all images.
 PAPER = 0.05
@@ -41,17 +49,27 @@ def line_object(picture: Picture, holder: bpy.types.Collection) -> bpy.types.Obj
         for key, points in (("co", stroke.points), ("handle_left", left), ("handle_right", right)):
             flat = np.column_stack([points, np.zeros(len(points))]).ravel()
             spline.bezier_points.foreach_set(key, flat.astype(np.float32))
-        # The pen is pressed less at the ends of a line.
-        ends = np.ones(len(stroke.points))
-        if not stroke.closed:
-            ends = np.clip(np.minimum(np.arange(len(ends)), np.arange(len(ends))[::-1]) / 4.0 + 0.45, 0.0, 1.0)
-        spline.bezier_points.foreach_set("radius", (stroke.width * ends).astype(np.float32))
+        spline.bezier_points.foreach_set("radius", (stroke.width * pressure(stroke)).astype(np.float32))
         spline.use_cyclic_u = stroke.closed
         spline.resolution_u = 12
     curve.materials.append(flat_material("Ink", (*picture.ink, 1.0)))
     item = bpy.data.objects.new("Lines", curve)
     holder.objects.link(item)
     return item
+
+
+def pressure(stroke: Stroke) -> np.ndarray:
+    """How hard the pen is pressed at the points of a stroke: more in the middle of a line than at its ends, and going
+    down more than going up.
+    """
+    path = np.vstack([stroke.points, stroke.points[:1]]) if stroke.closed else stroke.points
+    run = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    share = (run / max(run[-1], 1e-12))[: len(stroke.points)]
+    if not stroke.closed:
+        return LIGHT + (HEAVY - LIGHT) * np.sqrt(np.sin(np.pi * np.clip(share, 0.0, 1.0)).clip(0.0))
+    heading = np.gradient(stroke.points, axis=0) if len(path) > 3 else np.zeros((len(share), 2))
+    down = -heading[:, 1] / np.maximum(np.linalg.norm(heading, axis=1), 1e-12)
+    return 1.0 + (HEAVY - 1.0) * gaussian_filter1d(down, 2.0, mode="wrap")
 
 
 def flat_material(name: str, colour: tuple[float, float, float, float]) -> bpy.types.Material:
@@ -95,41 +113,45 @@ def add_paper(picture: Picture, scene: bpy.types.Scene) -> None:
     mesh.from_pydata([(x0, y0, 0), (x1, y0, 0), (x1, y1, 0), (x0, y1, 0)], [], [(0, 1, 2, 3)])
     layer = mesh.uv_layers.new(name="UVMap")
     layer.uv.foreach_set("vector", np.array([0, 0, 1, 0, 1, 1, 0, 1], np.float32))
-    mesh.materials.append(image_material(image))
+    material = image_material(image)
+    material.node_tree.nodes["Image Texture"].interpolation = "Cubic"
+    mesh.materials.append(material)
     item = bpy.data.objects.new("Paper", mesh)
     item.location.z = -PAPER * float(np.linalg.norm(high - low))
     stage.collection(scene, "Stage").objects.link(item)
 
 
-def mistaken(edit: Edit, node: bpy.types.Node) -> list[str]:
-    """The regions that an artist would reject: those that are none of the places where the edit belongs."""
+def mistaken(edit: Edit, node: bpy.types.Node) -> list[bpy.types.Object]:
+    """The results that an artist would reject: those that are none of the places where the edit belongs."""
+    from geoanalogy.blender import names
     from geoanalogy.blender.regions.results import passing, targets_found
     from geoanalogy.blender.tree.store import engine_node
 
-    wrong = []
+    wrong = set()
     for target in passing(engine_node(node).operation, targets_found(node)):
         there = [truth(np.asarray(edit.query)) for truth in edit.truth]
         off = [np.median(np.linalg.norm(target.outline[: len(t)] - t, axis=1)) for t in there]
         size = [np.linalg.norm(np.ptp(t, axis=0)) for t in there]
         if np.min(np.array(off) / size) >= FOUND:
-            wrong.append(target.key)
-    return wrong
+            wrong.add(target.key)
+    shown = (item for item in bpy.context.scene.objects if item.get(names.NODE) == node.name)
+    return [item for item in shown if item[names.KEY] in wrong]
 
 
 def record(edit: Edit) -> bpy.types.Node:
     """Make an edit as a user does: draw the query, find what is like it, lay the image."""
     from geoanalogy.blender.regions import queries as region_queries
     from geoanalogy.blender.regions import recording as region_recording
-    from geoanalogy.blender.regions.decisions import write_decisions
+    from geoanalogy.blender.tree.corrections import decide
 
     context = bpy.context
     points = np.column_stack([edit.query, np.zeros(len(edit.query))])
     query = region_queries.add_query(context, [points], edit.closed, name=edit.name)
     steps = region_recording.region_steps(context, query, options_of(edit), threshold=edit.threshold)
     node = run(steps)
-    for key in mistaken(edit, node):
-        decisions = region_recording.engine_node(node).operation.decisions.reject(key)
-        write_decisions(context.scene, node, decisions)
+    wrong = mistaken(edit, node)
+    if wrong:
+        decide(context, wrong, "reject")
     low, high = np.array(edit.region.bounds).reshape(2, 2)
     image = image_of(edit.name, painted(edit.paint, low, high, edit.pixels))
     run(region_recording.image_steps(context, node, image, edit.width))
@@ -149,14 +171,14 @@ def build(picture: Picture) -> bpy.types.Scene:
         print(f"{picture.name}, {edit.name}: {node['count']} regions painted", flush=True)
     extent = np.array(picture.high) - picture.low
     width, height = np.round(RENDERED * extent / extent.max()).astype(int)
-    stage.settings(scene, int(width), int(height), 16)
+    stage.settings(scene, int(width), int(height), 32)
     scene.cycles.transparent_max_bounces = 64
     scene.cycles.use_denoising = False
     scene.view_settings.view_transform = "Standard"
     scene.view_settings.look = "None"
     scene.view_settings.exposure = 0.0
     corners = np.array([(*picture.low, 0.0), (*picture.high, 0.0)])
-    stage.camera(scene, corners, elevation=90.0, lens=None, margin=0.0)
+    stage.camera(scene, corners, elevation=90.0, lens=None, margin=-CROPPED)
     scene.world = bpy.data.worlds.new("Plain")
     return scene
 
