@@ -27,9 +27,8 @@ NEAR, ASKEW = 0.03, 0.4
 STRAIN = 0.45
 #: Mean squared difference of turn (square radians), and distance, at which the agreement is 1/2.
 TURN, DISTANCE = 0.012, 0.006
-#: Exponents of the factors: how much each says about a match being the right one (logistic regression on the bent
-#: shapes of `benchmarks/regions_quality.py`, each half judged by the weights of the other), over the one number that
-#: makes similarities spread over 0 to 1.
+#: Exponents of the factors: how much each says about a match being the right one, over the one number that makes
+#: similarities spread over 0 to 1. `benchmarks/regions_calibration.py` says where they come from, and fits others.
 EXPONENTS = {
     "coverage": 0.1,
     "smooth": 1.05,
