@@ -1,4 +1,4 @@
-"""Moving what has been chosen to what is most similar to the examples nearby."""
+"""Moving what has been chosen to what is most similar to the examples nearby, and to the middle of what is likely."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +8,7 @@ from .boxes import union_overlap
 from .construction import EQUALLY_ALIKE, ROUNDED
 from .lesson import Lesson
 from .signature import signature
-from .survey import SAME, Survey
+from .survey import AROUND, SAME, Survey
 
 Array = NDArray[np.float64]
 
@@ -16,13 +16,18 @@ Array = NDArray[np.float64]
 VARIANTS = 12
 #: Overlap from which candidates are of the same place.
 SAME_PLACE = 0.6
+#: Similarity to an example from which a result stays as it is: it is where the example says, not somewhere near.
+SURE = 0.9
+#: How much the result itself counts among the likely candidates around it, as a certainty.
+OWN_WEIGHT = 0.5
 
 
 def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDArray[np.intp]) -> tuple[Array, Array]:
-    """Chosen candidates, each moved to what is most similar to the examples nearby.
+    """Chosen candidates, each moved to what is most similar to the examples nearby, or amid what is likely.
 
     The quick look tells places apart, not whether an edge follows the window's edge or its centre: of the proposals
-    that were taken for the same, the full feature vector decides.
+    that were taken for the same, the full feature vector decides. What is still unlike every example, where nothing is
+    kept to exactly, goes to the `middle` of the candidates around it.
 
     Parameters
     ----------
@@ -35,7 +40,7 @@ def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDAr
     -------
     boxes : ndarray of shape (c, 4)
     similarities : ndarray of shape (c, m)
-        To every example.
+        To every example, of what is most similar in the place.
     """
     boxes, similar = seen.boxes[chosen].copy(), seen.similarities[chosen].copy()
     if not len(chosen) or not len(seen.predicted) or (seen.chosen is not None and not lesson.habits.exact):
@@ -69,4 +74,26 @@ def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDAr
     order = np.lexsort((-worth, np.round(deformed, ROUNDED), worth < top[rows] - EQUALLY_ALIKE, rows))
     row, first = np.unique(rows[order], return_index=True)
     boxes[row], similar[row] = options[order[first]], similarities[order[first]]
+    if not lesson.habits.exact:
+        unsure = similar[:, p].max(axis=1) < SURE
+        boxes[unsure] = middle(boxes[unsure], seen.boxes, seen.certainty)
     return boxes, similar
+
+
+def middle(boxes: Array, candidates: Array, certainty: Array) -> Array:
+    """Boxes moved to the middle of the candidates around them, each of which counts by its certainty.
+
+    Candidates of one place disagree about its edges; whichever of them is right, their middle overlaps with it.
+
+    Parameters
+    ----------
+    boxes : ndarray of shape (c, 4)
+    candidates : ndarray of shape (n, 4)
+    certainty : ndarray of shape (n,)
+
+    Returns
+    -------
+    ndarray of shape (c, 4)
+    """
+    weight = np.where(union_overlap(boxes, candidates) >= AROUND, certainty, 0.0)
+    return (weight @ candidates + OWN_WEIGHT * boxes) / (weight.sum(axis=1, keepdims=True) + OWN_WEIGHT)

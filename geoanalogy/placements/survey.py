@@ -36,7 +36,7 @@ MOST_MET = 4
 #: Similarity from which a candidate is like an example, the certainty of its equal, and the similarity below
 #: which candidates are something else.
 ALIKE, SURELY_ALIKE, UNLIKE = 0.85, 0.9, 0.7
-#: Overlap with the one candidate up to which others are of the same place.
+#: Overlap with a candidate from which others are around it: of its place, with other edges.
 AROUND = 0.3
 #: By what the odds are multiplied of what keeps to what all examples keep to exactly, and of what does not.
 EXACT, INEXACT = 3.0, 0.1
