@@ -34,6 +34,13 @@ class GEOANALOGY_OT_transfer(LongEdit, bpy.types.Operator):
             ("depth", "Fill", "In proportion to the way to the middle: reaches every part of the polygon"),
         ],
     )
+    shape: EnumProperty(
+        name="Shape",
+        items=[
+            ("rigid", "Kept", "Objects are moved and turned, and share the data of the example"),
+            ("outline", "Bent", "Meshes and curves are bent with the boundary, and have data of their own"),
+        ],
+    )
     corners: BoolProperty(
         name="Corner to Corner",
         description="Lengths run from corner to corner where there are equally many",
@@ -52,14 +59,14 @@ class GEOANALOGY_OT_transfer(LongEdit, bpy.types.Operator):
         chosen = sorted(context.selected_objects, key=lambda item: item.name)
         marks = [item for item in chosen if is_mark(item)]
         items = [item for item in chosen if item not in marks]
-        options = TransferOptions(system=self.system, distance=self.distance, corners=self.corners)
+        options = TransferOptions(system=self.system, distance=self.distance, corners=self.corners, shape=self.shape)
         node = yield from transfer_steps(context, items, options, marks, everything=self.everything)
         return f"{node[names.COUNT]} objects transferred"
 
     def draw(self, context):
         layout = self.layout
         layout.use_property_split = True
-        for name in ("system", "distance"):
+        for name in ("system", "distance", "shape"):
             layout.prop(self, name)
         if self.system == "boundary":
             layout.prop(self, "corners")

@@ -20,7 +20,9 @@ DERIVED_FRAME = 0.1
 STATED_FRAME = 10.0
 
 
-def corresponding_arcs(source: BoundarySystem, target: BoundarySystem, corners: bool) -> tuple[Array, Array]:
+def corresponding_arcs(
+    source: BoundarySystem, target: BoundarySystem, corners: bool, upright: bool = False
+) -> tuple[Array, Array]:
     """Arc lengths of the places that correspond: the fixed start, and all corners where there are equally many.
 
     Parameters
@@ -28,6 +30,8 @@ def corresponding_arcs(source: BoundarySystem, target: BoundarySystem, corners: 
     source, target : BoundarySystem
     corners : bool
         Whether all corners are wanted; else the start alone.
+    upright : bool
+        Whether the polygons are parts of walls: the lower left corresponds to the lower left, whatever they are like.
 
     Returns
     -------
@@ -36,37 +40,40 @@ def corresponding_arcs(source: BoundarySystem, target: BoundarySystem, corners: 
     """
     count = len(source.corner_arcs)
     if count and count == len(target.corner_arcs):
-        shift = _best_shift(source, target)
+        shift = _best_shift(source, target, upright)
         order = (np.arange(count) + shift) % count
         kept = slice(None) if corners else slice(1)
         return source.corner_arcs[kept], target.corner_arcs[order][kept]
     if count and len(target.corner_arcs):
-        pair = corner_costs(source, target)
+        pair = corner_costs(source, target, upright)
         i, j = np.unravel_index(np.argmin(pair.round(9)), pair.shape)
         return source.corner_arcs[[i]], target.corner_arcs[[j]]
-    return np.array([_axis_arc(source)]), np.array([_axis_arc(target)])
+    return np.array([_axis_arc(source, upright)]), np.array([_axis_arc(target, upright)])
 
 
-def corner_costs(source: BoundarySystem, target: BoundarySystem) -> Array:
+def corner_costs(source: BoundarySystem, target: BoundarySystem, upright: bool = False) -> Array:
     """How badly corners match: their openings (I_m of section 4.4) and their places in the polygons' frames.
 
     Parameters
     ----------
     source, target : BoundarySystem
+    upright : bool
+        Whether their frames are those of the walls that they are parts of.
 
     Returns
     -------
     ndarray of shape (source corners, target corners)
     """
     a, b = _openings(source.polygon), _openings(target.polygon)
-    p, q = _places(source), _places(target)
+    p, q = _places(source, upright), _places(target, upright)
     apart = np.hypot(*(p[:, None] - q).transpose(2, 0, 1))
-    return np.abs(a[:, None] - b) / np.pi + _frame_weight(source.polygon, target.polygon) * apart
+    weight = STATED_FRAME if upright else _frame_weight(source.polygon, target.polygon)
+    return np.abs(a[:, None] - b) / np.pi + weight * apart
 
 
-def _best_shift(source: BoundarySystem, target: BoundarySystem) -> int:
+def _best_shift(source: BoundarySystem, target: BoundarySystem, upright: bool) -> int:
     """The number of corners by which the target's are counted on, for the best match all round."""
-    pairs = corner_costs(source, target)
+    pairs = corner_costs(source, target, upright)
     count = len(pairs)
     shares = [np.diff(s.corner_arcs, append=s.corner_arcs[0] + s.perimeter) / s.perimeter for s in (source, target)]
     pairs = pairs + np.abs(shares[0][:, None] - shares[1])
@@ -85,22 +92,27 @@ def _frame_weight(source: Polygon, target: Polygon) -> float:
     return STATED_FRAME if stated else DERIVED_FRAME
 
 
-def _places(system: BoundarySystem) -> Array:
+def _places(system: BoundarySystem, upright: bool) -> Array:
     """The corners in the box of the polygon's frame, each coordinate from 0 to 1."""
-    to_frame = _frame(system.polygon)
+    to_frame = _frame(_direction(system, upright))
     box = to_frame(system.ring)
     low, high = box.min(axis=0), box.max(axis=0)
     return (to_frame(system.places(system.corner_arcs)) - low) / (high - low)  # type: ignore[no-any-return]
 
 
-def _frame(polygon: Polygon) -> Callable[[Array], Array]:
-    c, s = np.cos(polygon.main_orientation), np.sin(polygon.main_orientation)
+def _direction(system: BoundarySystem, upright: bool) -> float:
+    """The x axis of the polygon's frame; of a part of a wall, that of the wall, which is level."""
+    return 0.0 if upright else system.polygon.main_orientation
+
+
+def _frame(direction: float) -> Callable[[Array], Array]:
+    c, s = np.cos(direction), np.sin(direction)
     return lambda points: points @ np.array([[c, -s], [s, c]])
 
 
-def _axis_arc(system: BoundarySystem) -> float:
-    """Arc length of the place farthest along the main orientation, seen from the centroid."""
-    towards = system.polygon.main_orientation
+def _axis_arc(system: BoundarySystem, upright: bool) -> float:
+    """Arc length of the place farthest along the frame's x axis, seen from the centroid."""
+    towards = _direction(system, upright)
     centre = system.polygon.centroid
     far = 2 * np.hypot(*np.ptp(system.ring, axis=0))
     ray = shapely.LineString([centre, centre + far * np.array([np.cos(towards), np.sin(towards)])])

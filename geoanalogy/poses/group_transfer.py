@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,10 @@ from .local_mapping import LocalMapping, TransferOptions
 from .pose import Pose, footprint_ring
 
 Array = NDArray[np.float64]
+
+#: Longest piece of an outline that stays straight where it is mapped, in lengths of the outline: the ends of a bench
+#: say nothing of how its middle bends.
+PIECE = 1 / 32
 
 
 @dataclass(frozen=True)
@@ -44,7 +49,7 @@ class TransferredObject:
         Its number in the group.
     pose : Pose
     footprint : ndarray of shape (n, 2) or None
-        Ring in the pose's frame: its own where the outline was mapped.
+        Ring in the pose's frame: where outlines are mapped, that of `GroupTransfer.outlines` bent.
     parent : Polygon
         The polygon it was taken to.
     reached : bool
@@ -80,6 +85,17 @@ class GroupTransfer:
         self.source = source
         self.objects = tuple(GroupObject(o.pose, footprint_ring(o.footprint)) for o in objects)
         self.options = options or TransferOptions()
+
+    @cached_property
+    def outlines(self) -> tuple[Array | None, ...]:
+        """The footprints of the objects, with vertices enough to be bent.
+
+        Returns
+        -------
+        tuple of (ndarray of shape (n, 2) or None)
+            Rings in the frames of the poses.
+        """
+        return tuple(None if o.footprint is None else _divided(o.footprint) for o in self.objects)
 
     def targets(self, scene: Scene) -> list[Polygon]:
         """The polygons of a scene that the group is taken to.
@@ -156,19 +172,19 @@ class GroupTransfer:
         # All points of all objects at once: the medial axis is found for many as fast as for one.
         points: list[Array] = []
         first: list[int] = []
-        for o in self.objects:
+        for o, outline in zip(self.objects, self.outlines, strict=True):
             first.append(sum(len(p) for p in points))
             points.append(np.array([o.pose.position]))
-            if outlines and o.footprint is not None:
-                points.append(o.pose.to_scene(o.footprint))
+            if outlines and outline is not None:
+                points.append(o.pose.to_scene(outline))
         mapped = mapping.map(np.vstack(points))
         found = []
-        for i, (o, k) in enumerate(zip(self.objects, first, strict=True)):
+        for i, (o, outline, k) in enumerate(zip(self.objects, self.outlines, first, strict=True)):
             x, y = mapped.points[k]
             pose = Pose((x, y), o.pose.angle + float(mapped.turn[k]), o.pose.mirrored)
             ring, reached = o.footprint, bool(mapped.reached[k])
-            if outlines and ring is not None:
-                vertices = slice(k + 1, k + 1 + len(ring))
+            if outlines and outline is not None:
+                vertices = slice(k + 1, k + 1 + len(outline))
                 ring = pose.to_frame(mapped.points[vertices])
                 # Across the medial axis an outline may come apart.
                 reached &= bool(mapped.reached[vertices].all()) and shapely.LinearRing(ring).is_simple
@@ -221,3 +237,8 @@ class GroupTransfer:
             return cls(Polygon(**plain["source"]), objects, TransferOptions.from_dict(plain["options"]))
         except (KeyError, TypeError, AttributeError) as error:
             raise InputError(f"the stored group lacks or garbles {error}; record the operation again") from error
+
+
+def _divided(ring: Array) -> Array:
+    closed = shapely.LinearRing(ring)
+    return shapely.get_coordinates(shapely.segmentize(closed, PIECE * closed.length))[:-1]

@@ -1,7 +1,7 @@
 """Mapping one polygon to another by equal local coordinates (section 4.7)."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -33,7 +33,7 @@ class TransferOptions:
         Whether arc length runs from corner to corresponding corner, where there are equally many; else it runs from
         the fixed start as a share of the perimeter, as printed.
     shape : {"rigid", "outline"}
-        What is mapped: an object's position and direction, or every vertex of its footprint as well.
+        What is mapped: an object's position and direction, or its whole footprint as well.
     corner : int or None
         The source's corner; None: the one nearest to the middle of the group.
     start : (float, float) or None
@@ -41,6 +41,9 @@ class TransferOptions:
     starts : mapping of str to (float, float)
         Per target's id, the place on its boundary that corresponds to `start`. For others it is found by the likeness
         of the corners and the polygons' main orientations.
+    upright : bool
+        Whether the polygons are parts of walls, whose y axis points up: what is below stays below, and objects keep
+        their directions.
     """
 
     system: Literal["boundary", "corner"] = "boundary"
@@ -50,6 +53,7 @@ class TransferOptions:
     corner: int | None = None
     start: tuple[float, float] | None = None
     starts: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    upright: bool = False
 
     def __post_init__(self) -> None:
         choices = {
@@ -166,10 +170,10 @@ class LocalMapping:
             chosen = int(np.argmin(np.hypot(*(places[0] - centre).T)))
         origin = CornerSystem(self.source.polygon, chosen)
         if len(places[0]) == len(places[1]):
-            arcs = corresponding_arcs(self.source, self.target, corners=True)
+            arcs = corresponding_arcs(self.source, self.target, corners=True, upright=self.options.upright)
             answer = int(np.searchsorted(self.target.corner_arcs, arcs[1][chosen]))
         else:
-            answer = int(np.argmin(corner_costs(self.source, self.target)[chosen].round(9)))
+            answer = int(np.argmin(corner_costs(self.source, self.target, self.options.upright)[chosen].round(9)))
         return origin, CornerSystem(self.target.polygon, answer)
 
     def _corresponding(self, target: Polygon) -> tuple[Array, Array]:
@@ -185,7 +189,7 @@ class LocalMapping:
                 after = np.sort((system.corner_arcs - at) % system.perimeter)
                 runs.append(np.concatenate([at, at + after[after > 0]]))
             return (runs[0], runs[1]) if len(runs[0]) == len(runs[1]) else (begin, end)
-        return corresponding_arcs(self.source, self.target, self.options.corners)
+        return corresponding_arcs(self.source, self.target, self.options.corners, self.options.upright)
 
     def inverse(self) -> "LocalMapping":
         """The mapping back.
@@ -216,7 +220,8 @@ class LocalMapping:
         Mapped
         """
         given = np.asarray(points, dtype=np.float64).reshape(-1, 2)
-        return self._by_corner(given) if self.options.system == "corner" else self._by_boundary(given)
+        mapped = self._by_corner(given) if self.options.system == "corner" else self._by_boundary(given)
+        return replace(mapped, turn=np.zeros(len(given))) if self.options.upright else mapped
 
     @property
     def _scale(self) -> float:

@@ -335,34 +335,6 @@ def test_shares_say_how_often_each_of_several_is_chosen():
     assert {i.data for i in results()} == {bpy.data.objects["Bed"].data}
 
 
-def empty(name, at):
-    item = link(bpy.data.objects.new(name, None))
-    item.location = at
-    return item
-
-
-@pytest.mark.parametrize("system", ["boundary", "corner"])
-def test_empties_mark_where_the_coordinates_of_a_group_start(system):
-    """Two equal squares; the second one's mark is a quarter turn further round, and so is the group there."""
-    square = [(0, 0), (4, 0), (4, 4), (0, 4)]
-    for i in range(2):
-        face(f"lawn {i}", square, "lawn", at=(6.0 * i, 0.0, 0.0))
-    flower = box("Flower", (0.2, 0.2, 0.2), "flower", at=(1.0, 0.5, 0.0))
-    marks = [empty("Start", (0.0, 0.0, 0.0))]
-    if system == "boundary":
-        marks.append(empty("There", (10.0, 0.0, 0.0)))
-    activate(flower, *marks)
-    settings = {"system": system, "distance": "absolute"}
-    assert bpy.ops.geoanalogy.transfer(EXEC, True, **settings) == {"FINISHED"}
-    (made,) = results()
-    wanted = (9.5, 1.0, 0.0) if system == "boundary" else (7.0, 0.5, 0.0)
-    assert tuple(made.location) == pytest.approx(wanted, abs=1e-3)
-    options = bridge("tree.store").engine_node(operations_tree().nodes.active).operation.group.options
-    assert (options.start, options.corner) == (((0.0, 0.0), None) if system == "boundary" else (None, 0))
-    assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
-    assert tuple(results()[0].location) == pytest.approx(wanted, abs=1e-3)
-
-
 def test_results_stay_clear_of_a_doors_swing():
     rooms(2)
     box_size, place = (0.6, 0.6, 0.5), (2.6, 0.4, 0)
@@ -429,30 +401,6 @@ def test_array_fills_the_way_to_the_empty_in_every_like_room():
     own, other = found[found[:, 0] < 4.5], found[found[:, 0] > 4.5]
     assert {(1.5, 2.6), (2.5, 2.6), (3.5, 2.6)} <= {tuple(p) for p in np.round(own, 2)}
     assert {(5.5, 2.6), (6.5, 2.6), (7.5, 2.6), (8.5, 2.6)} <= {tuple(p) for p in np.round(other, 2)}
-
-
-def test_transfer_takes_a_group_to_rooms_of_another_shape():
-    face("source", ROOM, "lawn")
-    face("target", [(10, 0), (18, 0), (18, 6), (10, 6)], "lawn")
-    flowers = [box(f"Flower {i}", (0.2, 0.2, 0.2), "flower", at=(x, y, 0)) for i, (x, y) in enumerate([(1, 1), (3, 2)])]
-    activate(*flowers)
-    assert bpy.ops.geoanalogy.transfer(EXEC, True) == {"FINISHED"}
-    # Twice as large: the inscribed circle, the unit of distances, is twice as large too.
-    assert sorted(tuple(np.round(i.location[:2], 2)) for i in results()) == [(12.0, 2.0), (16.0, 4.0)]
-    assert {i.data for i in results()} == {flower.data for flower in flowers}
-
-
-def test_transfer_takes_results_on():
-    face("source", ROOM, "bed")
-    face("target", [(10, 0), (18, 0), (18, 6), (10, 6)], "bed")
-    lamp = activate(box("Lamp", (0.2, 0.2, 1.0), "lamp", at=(0.5, 0.5, 0)))
-    assert bpy.ops.geoanalogy.scatter(EXEC, True, count=3, level_set_width=0.5) == {"FINISHED"}
-    inside = [i for i in results() if i.location.x < 5]
-    activate(*inside)
-    assert bpy.ops.geoanalogy.transfer(EXEC, True) == {"FINISHED"}
-    made = results(operations_tree().nodes.active.name)
-    assert len(made) == len(inside)
-    assert all(i.location.x > 9 and i.data == lamp.data for i in made)
 
 
 def test_scatter_draws_so_many_and_another_seed_draws_others():

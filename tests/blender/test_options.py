@@ -25,7 +25,7 @@ ELSEWHERE = {
     ("PoseOptions", "max_per"): "the operators' own most and most_of",
     ("PoseOptions", "spacing"): "the operators' own spacing, which sifts what has been computed",
     ("PoseOptions", "upright"): "the direction of the plane that the example lies on",
-    ("TransferOptions", "shape"): "results are instances, which are not bent",
+    ("TransferOptions", "upright"): "the direction of the plane that the group lies on",
     ("TransferOptions", "corner"): "an empty at the corner",
     ("TransferOptions", "start"): "an empty at the group's polygon",
     ("TransferOptions", "starts"): "empties at the others",

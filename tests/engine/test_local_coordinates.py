@@ -334,22 +334,24 @@ def test_a_group_is_taken_to_every_polygon_of_its_label(shape):
         assert m.pose.angle == pytest.approx(o.pose.angle) and m.pose.mirrored == o.pose.mirrored
         assert (m.footprint is None) == (o.footprint is None)
         if o.footprint is not None:
-            assert m.footprint == pytest.approx(LEAF, abs=1e-4)
+            same = LEAF if shape == "rigid" else group.outlines[m.index]
+            assert m.footprint == pytest.approx(same, abs=1e-4)
         assert m.reached
 
 
 def test_an_outline_is_bent_with_its_bed():
     straight, bent = Polygon(rectangle(20, 2), label="bed", id="a"), Polygon(CIRCLE, label="bed", id="b")
-    side = np.linspace(-4, 4, 9)
-    hedge = np.array([(x, -0.2) for x in side] + [(x, 0.2) for x in side[::-1]])
-    pose = Pose((10.0, 0.5))
+    hedge = rectangle(8, 0.4, (-4, -0.2))
+    group = [GroupObject(Pose((10.0, 0.5)), hedge)]
     rigid, outline = (
-        GroupTransfer(straight, [GroupObject(pose, hedge)], TransferOptions(shape=s, distance="absolute")).to(bent)[0]
-        for s in ("rigid", "outline")
+        GroupTransfer(straight, group, TransferOptions(shape=s, distance="absolute")) for s in ("rigid", "outline")
     )
-    assert rigid.footprint == pytest.approx(hedge)
-    away = np.hypot(*outline.pose.to_scene(outline.footprint).T)
-    assert away == pytest.approx(2 - np.where(hedge[:, 1] < 0, 0.3, 0.7), abs=0.01)
+    assert rigid.to(bent)[0].footprint == pytest.approx(hedge)
+    (found,) = outline.to(bent)
+    away = np.hypot(*found.pose.to_scene(found.footprint).T)
+    # Its long sides are arcs, though only their ends were given.
+    assert len(away) > 30
+    assert away == pytest.approx(2 - np.interp(outline.outlines[0][:, 1], (-0.2, 0.2), (0.3, 0.7)), abs=0.01)
 
 
 def test_an_outline_that_comes_apart_is_not_reached():
@@ -358,6 +360,29 @@ def test_an_outline_that_comes_apart_is_not_reached():
     options = TransferOptions(shape="outline", distance="absolute")
     (moved,) = GroupTransfer(source, [GroupObject(Pose((3, 1.2)), rug)], options).to(target)
     assert not moved.reached
+
+
+@pytest.mark.parametrize("system", ["boundary", "corner"])
+@pytest.mark.parametrize("wall", [rectangle(2, 5, (10, 0)), [(10, 0), (13, 0), (13, 3), (11.5, 4), (10, 3)]])
+def test_what_is_taken_to_other_walls_stays_upright(system, wall):
+    wide, other = Polygon(rectangle(5, 2), label="wall", id="a"), Polygon(wall, label="wall", id="b")
+    lamp = GroupObject(Pose((0.5, 0.3), 0.1), LEAF)
+    to = {
+        upright: GroupTransfer(wide, [lamp], TransferOptions(system, "absolute", upright=upright)).to(other)[0].pose
+        for upright in (True, False)
+    }
+    # Of the boundary's coordinates, one runs in proportion: the lamp is at the lower left all the same.
+    assert to[True].position == pytest.approx((10.5, 0.3), abs=1e-6 if system == "corner" else 0.31)
+    assert to[True].angle == pytest.approx(0.1)
+    if len(wall) == 4:  # otherwise, long sides correspond to long ones
+        assert abs(np.cos(to[False].angle - 0.1)) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_round_walls_correspond_from_their_right_on():
+    round_, other = (Polygon(regular(64, 2.0, (x, 0.0), 0.3), label="wall", id=str(x)) for x in (0, 10))
+    lamp = GroupObject(Pose((1.2, 0.4)))
+    (to,) = GroupTransfer(round_, [lamp], TransferOptions(upright=True)).to(other)
+    assert to.pose.position == pytest.approx((11.2, 0.4), abs=1e-3) and to.pose.angle == 0.0
 
 
 def test_the_source_is_no_target_but_its_copy_elsewhere_is():
@@ -373,7 +398,7 @@ def test_the_source_is_no_target_but_its_copy_elsewhere_is():
     [
         TransferOptions(),
         TransferOptions(system="corner", distance="absolute", corner=1, shape="outline"),
-        TransferOptions(corners=False, start=(0.0, 1.0), starts={"bed 2": (10.0, 1.0)}),
+        TransferOptions(corners=False, start=(0.0, 1.0), starts={"bed 2": (10.0, 1.0)}, upright=True),
     ],
 )
 def test_a_stored_group_is_the_same_group(options):

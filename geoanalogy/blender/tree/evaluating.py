@@ -24,6 +24,7 @@ from ...progress import Stepper, within
 from .. import names
 from ..reading.ground import Ground, only_in, read_grounds
 from ..reading.planes import Plane
+from ..writing.bending import Bender
 from ..writing.instances import is_instance, write_results
 from .proposals import write_proposals
 from .refresh import examples_of, ground_for, in_order
@@ -341,7 +342,8 @@ def write_node(node: bpy.types.Node, evaluated: Sequence[tuple[Surroundings, Ite
         proposed = (e for place in places for e in evaluations.proposed.get(place, ()))
         node[names.RESULTS] = write_proposals(proposed)
     standing = [] if node.mute else in_order(node, [(around.plane, elements) for around, elements in evaluated])
-    shown = write_results(evaluated[0][0].scene, node.name, standing, placed_by(node))
+    scene = evaluated[0][0].scene
+    shown = write_results(scene, node.name, standing, placed_by(node), bender=Bender.of(node))
     node[names.COUNT] = shown + sum(not is_instance(e) for e, _ in standing)
     return shown
 

@@ -171,6 +171,7 @@ def learn_group(
                 f"object {item.name!r} lies in {parents[-1].id!r} and {items[0].name!r} in {parents[0].id!r}; "
                 "select objects of one polygon"
             )
+    options = replace(options, upright=site.plane.is_wall)
     return GroupTransfer(parents[0], objects, _marked(options, parents[0], site, scene, marks))
 
 

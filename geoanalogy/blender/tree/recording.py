@@ -41,6 +41,7 @@ from .evaluating import (
     write_node,
 )
 from .lessons import learn, learn_group, learn_row, scene_without
+from .refresh import proposed_by
 from .sites import Site, site_of, sites_in
 from .store import Placed, builds, ensure_tree, placed_by, tree_of
 from .whole import whole_steps, write_whole
@@ -370,11 +371,21 @@ def _placed(items: Sequence[bpy.types.Object], tree: bpy.types.NodeTree | None, 
     found = []
     for item in items:
         if names.KEY in item:
-            source = tree.nodes[item[names.NODE]]
-            found.append(next(one for one in placed_by(source) if one.item and one.item.data == item.data))
+            found.append(_behind(item, tree))
         else:
             found.append(Placed(item.name, item, rest_of(item, pose_of(item, site.plane), site.plane)))
     return found
+
+
+def _behind(item: bpy.types.Object, tree: bpy.types.NodeTree | None) -> Placed:
+    """The library object that a result is a copy of, whatever has been done to the result since."""
+    source = None if tree is None else tree.nodes.get(item[names.NODE])
+    if source is not None:
+        meshes = {e.mesh for e in proposed_by(source) if e.key == item[names.KEY]}
+        for one in placed_by(source):
+            if one.item is not None and one.mesh in meshes:
+                return one
+    raise InputError(f"object {item.name!r} is a result of nothing that is known here; replay the operations first")
 
 
 def _record_steps(

@@ -12,6 +12,7 @@ from ...operations.tree import OperationsTree
 from .. import names
 from ..reading.ground import Ground, read_grounds
 from ..reading.planes import Plane
+from ..writing.bending import Bender
 from ..writing.instances import write_results
 from .proposals import read_proposals
 from .store import engine_node, engine_tree, operation_nodes, ordered_nodes, placed_by, plane_of, works_everywhere
@@ -183,5 +184,7 @@ def show(scene: bpy.types.Scene, node: bpy.types.Node, *, unmoved: bool = False)
     engine, proposed = engine_node(node), proposed_by(node)
     parts = [(g.plane, decided(engine, proposed, incoming).elements) for g, incoming in stored_layout(scene, node)]
     standing = in_order(node, parts)
-    node[names.COUNT] = write_results(scene, node.name, standing, placed_by(node), unmoved=unmoved)
+    node[names.COUNT] = write_results(
+        scene, node.name, standing, placed_by(node), bender=Bender.of(node), unmoved=unmoved
+    )
     return node[names.COUNT]

@@ -18,6 +18,7 @@ from ..reading.footprints import frame_of
 from ..reading.ground import results_collection
 from ..reading.planes import Plane
 from ..tree.store import Placed
+from .bending import Bender
 
 Array = NDArray[np.float64]
 
@@ -76,6 +77,7 @@ def write_results(
     standing: Sequence[tuple[Element, Plane]],
     placed: Iterable[Placed],
     *,
+    bender: Bender | None = None,
     unmoved: bool = False,
 ) -> int:
     """Show the results of one operation in place of those shown before.
@@ -90,6 +92,8 @@ def write_results(
         scene itself.
     placed : iterable of Placed
         The objects by their names in the operation; elements of others are left out.
+    bender : Bender, optional
+        Of the node; None: nothing is bent.
     unmoved : bool
         Whether results of the same key stand where they did: those at the beginning that stay the same are left alone,
         and a threshold that is moved only takes from the end, or adds there.
@@ -124,6 +128,8 @@ def write_results(
         made.name = f"{node} {count:03d}"
         made[names.NODE], made[names.KEY] = node, e.key
         _stand(made, e, one.rest, plane)
+        if bender is not None:
+            bender.bend(made, e, one.rest)
         holder.objects.link(made)
         _copy_children(one.item, made, holder, children)
     for item in selected:
@@ -167,7 +173,7 @@ def _leave(holder: bpy.types.Collection, keys: Sequence[str]) -> int:
     while same < min(len(starts), len(keys)) and every[starts[same]][names.KEY] == keys[same]:
         same += 1
     if same < len(starts):
-        bpy.data.batch_remove(every[starts[same] :])
+        _remove(every[starts[same] :])
     return same
 
 
@@ -233,7 +239,14 @@ def delete_results(holder: bpy.types.Collection) -> None:
     ----------
     holder : bpy.types.Collection
     """
-    bpy.data.batch_remove(results_in(holder))
+    _remove(results_in(holder))
+
+
+def _remove(items: Sequence[bpy.types.Object]) -> None:
+    """Remove results, and the data that were made for them."""
+    own = {item.data for item in items if item.data is not None and names.KEY in item.data}
+    bpy.data.batch_remove(items)
+    bpy.data.batch_remove([data for data in own if not data.users])
 
 
 def clear_results(scene: bpy.types.Scene, nodes: Iterable[str] | None = None) -> None:

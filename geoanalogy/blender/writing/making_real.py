@@ -47,6 +47,8 @@ def make_real(scene: bpy.types.Scene) -> int:
         by_label[label].objects.link(item)
         if item.data is not None and item.data.users > 1:
             item.data = item.data.copy()
+        if item.data is not None:
+            item.data.pop(names.KEY, None)  # of what was bent
         # Without a label they are no part of the plan, on which the operations would see them a second time.
         for name in (names.NODE, names.KEY, names.LABEL):
             if name in item:
