@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import shapely
 
 from .lines import Array, Stroke, Warp, along, by_hand, curve, inverse, joined, then
 from .picture import Edit, Picture, mixed, over, step, with_alpha, within
@@ -62,6 +63,19 @@ def plant(foot: tuple[float, float], top: tuple[float, float], lean: float, side
     return along(spine, -2.32, 1.0, (0.95, 1.0, 1.05), side)
 
 
+def tuft(foot: tuple[float, float], tall: float, generator: np.random.Generator) -> list[Stroke]:
+    """Blades of grass round the foot of a plant."""
+    blades = []
+    for side in (-1.5, -1.0, 1.1, 1.6):
+        x, y = foot[0] + 0.25 * side, foot[1] - 0.1
+        lean, high = generator.uniform(0.15, 0.4) * side, tall * generator.uniform(0.6, 1.1)
+        tip, half = (x + lean, y + high), 0.35 * lean
+        left = curve([(x - 0.05, y), (x - 0.05 + half, y + 0.5 * high), tip], count=8)
+        right = curve([tip, (x + 0.05 + half, y + 0.5 * high), (x + 0.05, y)], count=8)
+        blades.append(joined(left, right, closed=False))
+    return blades
+
+
 def green(points: Array) -> Array:
     """Deep green with a pale band and a vein on every leaflet."""
     flat = np.column_stack([-points[:, 1], points[:, 0]])
@@ -111,9 +125,9 @@ def picture() -> Picture:
                 closed=False,
             )
         )
+    for k, (foot, *_) in enumerate(PLANTS):
+        strokes += tuft(foot, 0.5 + 0.3 * (k % 3) / 2.0, hand)
     home = inverse(warps[0], (-2.5, -1.2), (1.2, 1.2))
-    import shapely
-
     outline = shapely.union_all(
         [shapely.make_valid(shapely.polygons(s.polyline())) for s in UPRIGHT if len(s.points) > 15]
     )

@@ -98,10 +98,10 @@ POSES: list[dict[int, tuple[float, float]]] = [
 #: Where each stands, how large it is, and whether it looks to the left.
 PLACES = [
     ((2.0, 0.9), 1.0, False),
-    ((6.9, 0.8), 1.05, False),
-    ((14.4, 0.8), 1.05, True),
-    ((9.6, 5.2), 0.55, False),
-    ((6.3, 5.4), 0.5, False),
+    ((6.5, 0.8), 1.05, False),
+    ((14.0, 0.8), 1.05, True),
+    ((9.2, 6.1), 0.55, False),
+    ((5.7, 6.0), 0.5, False),
 ]
 
 
@@ -135,15 +135,15 @@ def savanna(points: Array) -> Array:
     x, y = points.T
     colour = mixed((1.0, 0.78, 0.45), (0.55, 0.75, 0.9), step(y, 7.6, 5.0))
     colour = over(colour, (1.0, 0.95, 0.75), 0.9 * step(1.0 - np.hypot(x - 12.6, y - 8.6), 0.0, 0.3))
-    hills = 6.3 + 0.4 * np.sin(0.5 * x + 1.0) + 0.15 * np.sin(1.7 * x)
+    hills = 6.9 + 0.4 * np.sin(0.5 * x + 1.0) + 0.15 * np.sin(1.7 * x)
     colour = over(colour, (0.62, 0.55, 0.5), step(hills - y, 0.0, 0.1))
     grass = mixed((0.78, 0.62, 0.25), (0.92, 0.8, 0.45), y / 5.8)
-    colour = np.where((y < 5.8 + 0.1 * np.sin(2 * x))[:, None], grass, colour)
+    colour = np.where((y < 6.4 + 0.1 * np.sin(2 * x))[:, None], grass, colour)
     crown = np.min(
         [np.hypot((x - a) / 1.5, y - b) / r for a, b, r in ((0.9, 8.7, 0.5), (2.0, 9.2, 0.55), (0.0, 9.3, 0.55))], 0
     )
-    trunk = np.abs(x - 0.9 - 0.05 * (y - 5)) < 0.12
-    colour = over(colour, (0.35, 0.28, 0.2), trunk & (y > 5.6) & (y < 8.8))
+    trunk = step(0.12 - np.abs(x - 0.9 - 0.05 * (y - 5)), 0.0, 0.05)
+    colour = over(colour, (0.35, 0.28, 0.2), trunk * (y > 6.2) * (y < 8.8))
     colour = over(colour, (0.38, 0.48, 0.22), step(1.0 - crown, 0.0, 0.15))
     return with_alpha(colour, np.ones(len(points)))
 

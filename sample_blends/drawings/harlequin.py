@@ -28,7 +28,7 @@ BODY = joined(
     curve([(1.35, 0.0), (1.2, 0.04), (0.45, 0.1)], count=6),
     curve([(0.45, 0.1), (0.1, 0.3), (0.0, 0.7)], count=7),
 )
-COLLAR = Stroke(np.array([(3.25 + (0.24 if i % 2 else -0.12), 0.62 * (1 - i / 5.0)) for i in range(11)]), False, 0.8)
+COLLAR = Stroke(np.array([(3.25 + (0.24 if i % 2 else -0.12), 0.46 * (1 - i / 5.0)) for i in range(11)]), False, 0.8)
 HEAD = curve([(3.3, 0.42), (3.7, 0.55), (4.05, 0.5)], count=10)
 CHIN = curve([(3.3, -0.42), (3.7, -0.55), (4.05, -0.5)], count=10)
 HAT = joined(
@@ -47,6 +47,8 @@ FACE = [
     ellipse(3.64, 0.0, 0.08, count=10),
     curve([(3.56, 0.24), (3.45, 0.1), (3.44, -0.1), (3.55, -0.26)], count=8, width=0.8),
 ]
+#: Where lozenges are sewn onto the cloth.
+LOZENGES = ((0.95, 0.33), (1.35, 0.33), (2.15, -0.3), (2.6, -0.3))
 CLOTH = [
     curve([(0.5, 0.62), (0.56, 0.35), (0.45, 0.1)], count=6, width=0.7),
     curve([(0.5, -0.62), (0.56, -0.35), (0.45, -0.1)], count=6, width=0.7),
@@ -57,14 +59,14 @@ CLOTH = [
     *(ellipse(x, 0.16, 0.055, count=8) for x in (2.0, 2.4, 2.8)),
     curve([(4.12, 0.0), (4.5, 0.08), (4.95, 0.2)], count=6, width=0.7),
     *(Stroke(np.array([(x - 0.2, y), (x, y + 0.13), (x + 0.2, y), (x, y - 0.13)]), True, 0.7)
-      for x, y in ((0.95, 0.33), (1.35, 0.33), (2.15, -0.3), (2.6, -0.3))),
+      for x, y in LOZENGES),
 ]  # fmt: skip
 DOLL = [BODY, COLLAR, HEAD, CHIN, HAT, *BELLS, *FACE, *CLOTH]
 
 SPINES = [
     ([(3.0, 1.2), (2.95, 3.4), (3.1, 5.6), (3.0, 7.8)], (1.0, 1.0), 1.0),
-    ([(8.3, 1.2), (8.0, 3.2), (8.4, 5.4), (9.6, 7.3)], (1.0, 1.05), -1.0),
-    ([(13.3, 1.2), (13.9, 3.2), (13.7, 5.2), (12.7, 7.0)], (0.95, 1.0), 1.0),
+    ([(8.0, 1.2), (7.7, 3.2), (8.1, 5.4), (9.3, 7.3)], (1.0, 1.05), -1.0),
+    ([(13.1, 1.2), (13.6, 3.2), (13.4, 5.2), (12.5, 7.0)], (0.95, 1.0), 1.0),
 ]
 
 
@@ -77,6 +79,9 @@ def costume(points: Array) -> Array:
     lozenge = (u < 1.0) ^ (v < 1.0)
     colour = over(colour, (0.95, 0.74, 0.18), 0.9 * (lozenge & (x < 3.1)))
     colour = over(colour, (0.95, 0.74, 0.18), 0.9 * ((np.sin(11 * x + 6 * np.abs(y)) > 0.5) & (x > 4.1)))
+    for at, side in LOZENGES:
+        sewn = np.abs(x - at) / 0.2 + np.abs(y - side) / 0.13
+        colour = over(colour, (0.1, 0.36, 0.26), sewn < 1.0)
     hand = (x > 2.0) & (x < 2.75) & (np.abs(y) > 1.3)
     colour = over(colour, (0.98, 0.92, 0.86), hand & (x < 4))
     colour = over(colour, (0.12, 0.1, 0.14), x < 0.5 - 0.1 * np.abs(y))

@@ -6,7 +6,7 @@ import numpy as np
 
 from .lines import Array, Stroke, along, by_hand, curve, inverse, joined, then
 from .picture import Edit, Picture, mixed, over, step, with_alpha, within
-from .snakes import FACE, LOWER, OPTIONS, OUTLINE, TONGUE, UPPER, desert
+from .snakes import FACE, LOWER, OPTIONS, OUTLINE, TONGUE, UPPER, desert, lasso
 
 #: Where the rings of the skin lie; between them run zigzags with dots, all much alike.
 RINGS = np.concatenate([np.arange(1.2, 7.5, 0.55), [7.75]])
@@ -76,9 +76,7 @@ def picture() -> Picture:
     hand = np.random.default_rng(76)
     strokes = [s for w in (FIRST, SECOND) for s in by_hand([k.warped(w) for k in SNAKE], 0.006, hand)]
     home = inverse(FIRST, (-0.2, -0.6), (10.0, 0.6))
-    upper = np.column_stack([np.linspace(-0.25, 9.95, 90), np.zeros(90)])
-    upper[:, 1] = np.interp(upper[:, 0], UPPER.points[:, 0], UPPER.points[:, 1]) + 0.14
-    ring = FIRST(np.vstack([upper, upper[::-1] * (1.0, -1.0)]))
+    ring = FIRST(lasso())
     return Picture(
         "skins",
         "3.7f",

@@ -57,10 +57,19 @@ LARGE = along(
     [(1.0, 5.0), (3.4, 5.9), (6.4, 5.3), (9.6, 6.3), (12.4, 6.9), (15.0, 8.0)], 0.0, 9.3, (0.85, 0.9, 1.0, 1.1)
 )
 WINDING = along(
-    [(0.9, 1.3), (3.0, 0.8), (4.6, 1.9), (5.3, 3.5), (7.2, 3.8), (8.5, 2.3), (10.3, 1.2), (12.4, 2.3), (13.4, 4.2),
-     (15.1, 4.6)],
+    [(0.9, 1.3), (3.0, 0.8), (4.6, 1.9), (5.3, 3.5), (7.2, 3.8), (8.5, 2.3), (10.2, 1.2), (12.1, 2.2), (13.1, 4.1),
+     (14.7, 4.6)],
     0.0, 9.3, (0.8, 0.9, 1.0, 1.05),
 )  # fmt: skip
+
+
+def lasso() -> Array:
+    """A ring round a snake, round at the tip of the tail and before the tongue."""
+    x = -0.25 + 10.2 * 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, 90)))
+    y = np.interp(x, UPPER.points[:, 0], UPPER.points[:, 1])
+    y += 0.14 * np.sqrt(np.clip(np.minimum(x + 0.25, 9.95 - x) / 0.25, 0.0, 1.0))
+    upper = np.column_stack([x, y])
+    return np.vstack([upper, upper[-2:0:-1] * (1.0, -1.0)])
 
 
 def skin(points: Array) -> Array:
@@ -112,9 +121,7 @@ def picture() -> Picture:
     hand = np.random.default_rng(31)
     strokes = [s for w in (SMALL, LARGE, WINDING) for s in by_hand([s.warped(w) for s in SNAKE], 0.006, hand)]
     home = inverse(SMALL, (-0.2, -0.6), (10.0, 0.6))
-    upper = np.column_stack([np.linspace(-0.25, 9.95, 90), np.zeros(90)])
-    upper[:, 1] = np.interp(upper[:, 0], UPPER.points[:, 0], UPPER.points[:, 1]) + 0.14
-    ring = SMALL(np.vstack([upper, upper[::-1] * (1.0, -1.0)]))
+    ring = SMALL(lasso())
     truth = [then(home, LARGE), then(home, WINDING)]
     return Picture(
         "snakes",
