@@ -68,21 +68,31 @@ class Arrangement:
         c, s = np.cos(self.frame), np.sin(self.frame)
         return points @ np.array([[c, s], [-s, c]])
 
-    def _box(self, polygon: Polygon) -> Array:
+    def box_of(self, polygon: Polygon) -> Array:
+        """(x0, y0, x1, y1) of a polygon in the frame.
+
+        Parameters
+        ----------
+        polygon : Polygon
+
+        Returns
+        -------
+        ndarray of shape (4,)
+        """
         ring = self.turned(polygon.points)
         return np.hstack([ring.min(axis=0), ring.max(axis=0)])
 
     @cached_property
     def parent_box(self) -> Array:
-        """(x0, y0, x1, y1) of the parent in the frame."""
-        return self._box(self.parent)
+        """`box_of` the parent."""
+        return self.box_of(self.parent)
 
     @cached_property
     def drawn(self) -> dict[str, Array]:
         """Boxes (n, 4) of the members in the frame, by label."""
         of = defaultdict(list)
         for polygon in self.members:
-            of[polygon.label].append(self._box(polygon))
+            of[polygon.label].append(self.box_of(polygon))
         return {label: np.array(of[label]) for label in sorted(of)}
 
     @cached_property
@@ -109,7 +119,7 @@ class Arrangement:
         return [self._fills_box(p) for p in self.members]
 
     def _fills_box(self, polygon: Polygon) -> bool:
-        x0, y0, x1, y1 = self._box(polygon)
+        x0, y0, x1, y1 = self.box_of(polygon)
         return polygon.area >= PARALLEL_SHARE * (x1 - x0) * (y1 - y0)
 
     @cached_property

@@ -23,8 +23,9 @@ from .regression import predicted_targets
 from .results import Placement, disjoint, told
 from .rule import Relation, learned_rule, reasons
 from .selection import rescaled, shape_factor, useful_cut, without_overlaps
+from .siblings import row_odds, standing_of
 from .signature import Signature, signature
-from .survey import Survey, survey
+from .survey import Survey, more_certain, survey
 from .taught import Taught, coverage, teach
 
 Array = NDArray[np.float64]
@@ -115,10 +116,12 @@ class PlacementModel:
         if not 0 <= least <= 1:
             raise InputError(f"the threshold is {least}; give a number from 0 to 1")
         parents = [p for p in scene.polygons if p.label == self.label]
+        taught = [self.lesson.taught[i].standing for i in self.lesson.positive]
+        against = row_odds(scene, self.label, [s for s in taught if s is not None])
         found: list[Placement] = []
         for i, parent in enumerate(parents):
             yield i / len(parents), f"placing in {self.label or 'polygon'} {i + 1} of {len(parents)}"
-            found += self._place_in(scene, parent, least, include_examples)
+            found += self._place_in(scene, parent, least, include_examples, against.get(str(parent.id), 0.0))
         return sorted(found, key=lambda p: -p.score)
 
     def novelties(self, scene: Scene) -> list[tuple[Polygon, float]]:
@@ -145,7 +148,9 @@ class PlacementModel:
             found.append((parent, float(np.clip(1.0 - nearest, 0.0, 1.0))))
         return sorted(found, key=lambda one: -one[1])
 
-    def _place_in(self, scene: Scene, parent: Polygon, least: float, include_examples: bool) -> list[Placement]:
+    def _place_in(
+        self, scene: Scene, parent: Polygon, least: float, include_examples: bool, against: float
+    ) -> list[Placement]:
         found: list[Placement] = []
         frames = self.orientation.frames(parent)
         for frame in frames:
@@ -153,7 +158,7 @@ class PlacementModel:
             shown = self.shown_in(arrangement)
             positive, drawn = self._drawn(arrangement, shown)
             seen = self._survey(arrangement, positive, drawn)
-            score = self.scores(seen, drawn)
+            score = more_certain(self.scores(seen, drawn), against)
             good = score >= max(least, 1e-6)
             if self.orientation.by_segment:
                 good &= self._faces(arrangement, seen.boxes)
@@ -358,7 +363,8 @@ def learn_placement(examples: Sequence[Example], options: PlacementOptions | Non
         drawn.setdefault(arrangement_of(example.scene, parent, frame), []).append(i)
     lessons: dict[int, tuple[Taught, Signature]] = {}
     for arrangement, some in drawn.items():
-        taught = teach(arrangement, [(kept[i].rectangle, kept[i].target) for i in some], chosen)
+        standing = standing_of(kept[some[0]].scene, arrangement.parent)
+        taught = teach(arrangement, [(kept[i].rectangle, kept[i].target) for i in some], chosen, standing)
         lessons |= dict(zip(some, taught, strict=True))
     ordered = [lessons[i] for i in range(len(kept))]
     return PlacementModel(

@@ -264,13 +264,13 @@ def _worth_a_look(boxes: Array, worth: Array) -> NDArray[np.intp]:
     return differing[: max(int((worth[differing] >= WORTH_A_LOOK).sum()), LOOKED_AT[0])]
 
 
-def more_certain(certainty: Array, value: Array) -> Array:
+def more_certain(certainty: Array, value: Array | float) -> Array:
     """Certainty after more evidence.
 
     Parameters
     ----------
     certainty : ndarray of shape (n,)
-    value : ndarray of shape (n,)
+    value : ndarray of shape (n,) or float
         Logarithms of the factors of the odds.
 
     Returns

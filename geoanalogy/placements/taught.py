@@ -11,6 +11,7 @@ from ..geometry.rectangle import Rectangle
 from .arrangement import Arrangement
 from .boxes import areas, shared_areas
 from .options import PlacementOptions
+from .siblings import Standing
 from .signature import Signature, signature
 
 Array = NDArray[np.float64]
@@ -35,6 +36,8 @@ class Taught:
         Share of it that lies outside its parent.
     covered, touched : dict of str to float
         By label: the share of it that elements cover, and the largest share of one element that it covers.
+    standing : Standing or None
+        Where its parent stands among its like.
     """
 
     rectangle: Rectangle
@@ -45,6 +48,7 @@ class Taught:
     outside: float
     covered: dict[str, float]
     touched: dict[str, float]
+    standing: Standing | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data, as it is written to JSON."""
@@ -58,16 +62,19 @@ class Taught:
             "outside": self.outside,
             "covered": self.covered,
             "touched": self.touched,
+            "standing": self.standing and self.standing.to_dict(),
         }
 
     @classmethod
     def from_dict(cls, plain: dict[str, Any]) -> "Taught":
         """The inverse of `to_dict`."""
+        standing = plain.get("standing")
         return cls(
             **{
                 **plain,
                 "rectangle": Rectangle(*plain["rectangle"]),
                 "size": np.array(plain["size"], dtype=np.float64),
+                "standing": None if standing is None else Standing.from_dict(standing),
             }
         )
 
@@ -97,7 +104,10 @@ def coverage(arrangement: Arrangement, boxes: Array) -> tuple[dict[str, Array], 
 
 
 def teach(
-    arrangement: Arrangement, drawn: Sequence[tuple[Rectangle, float]], options: PlacementOptions
+    arrangement: Arrangement,
+    drawn: Sequence[tuple[Rectangle, float]],
+    options: PlacementOptions,
+    standing: Standing | None = None,
 ) -> list[tuple[Taught, Signature]]:
     """What is kept of the examples that were drawn in one arrangement.
 
@@ -107,6 +117,8 @@ def teach(
     drawn : sequence of (Rectangle, float)
         With the target of each.
     options : PlacementOptions
+    standing : Standing, optional
+        Of the arrangement's parent.
 
     Returns
     -------
@@ -129,6 +141,7 @@ def teach(
                 float(outside[i]),
                 {label: float(v[i]) for label, v in covered.items()},
                 {label: float(v[i]) for label, v in touched.items()},
+                standing,
             ),
             seen.rows([i]),
         )
