@@ -16,7 +16,9 @@ class GEOANALOGY_OT_combine(LongEdit, bpy.types.Operator):
     bl_label = "Combine"
 
     label: StringProperty(
-        name="Label", description="Of the solids; empty: that of the active object", options={"SKIP_SAVE"}
+        name="Label",
+        description="Of the solids; empty: that of the active object, else of the active operation",
+        options={"SKIP_SAVE"},
     )
     kind: EnumProperty(name="Kind", items=KINDS)
     target: EnumProperty(name="With", items=TARGETS)

@@ -32,7 +32,9 @@ class GEOANALOGY_OT_extrude(LongEdit, bpy.types.Operator):
     bl_label = "Extrude"
 
     label: StringProperty(
-        name="Label", description="Of what is extruded; empty: that of the active object", options={"SKIP_SAVE"}
+        name="Label",
+        description="Of what is extruded; empty: that of the active object, else of the active operation",
+        options={"SKIP_SAVE"},
     )
     height: FloatProperty(name="Height", default=3.0, subtype="DISTANCE")
     factor: FloatVectorProperty(

@@ -17,7 +17,9 @@ class GEOANALOGY_OT_select_elements(LongEdit, bpy.types.Operator):
     bl_label = "Divide"
 
     label: StringProperty(
-        name="Label", description="Of what is divided; empty: that of the active object", options={"SKIP_SAVE"}
+        name="Label",
+        description="Of what is divided; empty: that of the active object, else of the active operation",
+        options={"SKIP_SAVE"},
     )
     weights: StringProperty(
         name="Weights",

@@ -22,7 +22,6 @@ class GEOANALOGY_PT_building(SidebarPanel, bpy.types.Panel):
         grid.operator("geoanalogy.select_elements", text="Divide", icon="UV_SYNC_SELECT")
         grid.operator("geoanalogy.combine", text="Merge", icon="SELECT_EXTEND").kind = "merge"
         grid.operator("geoanalogy.combine", text="Subtract", icon="SELECT_SUBTRACT").kind = "subtract"
-        layout.operator("geoanalogy.label_faces", icon="FACESEL")
         tree = tree_of(context.scene)
         if tree is None:
             return

@@ -23,8 +23,21 @@ class GEOANALOGY_PT_plan(SidebarPanel, bpy.types.Panel):
         row.label(text="Label")
         row.operator("geoanalogy.set_label", text="Selected").target = "OBJECTS"
         row.operator("geoanalogy.set_label", text="Collection").target = "COLLECTION"
-        if context.scene.geoanalogy.plan is None and not any(names.LABEL in item for item in context.scene.objects):
+        row.operator("geoanalogy.label_faces", text="Faces")
+        if context.mode == "EDIT_MESH":
+            hint(layout, "Select faces and label them: walls, roofs; all else is done in Object Mode")
+        elif context.scene.geoanalogy.plan is None and not _has_labels(context.scene):
             hint(layout, "Import a plan, or draw faces and closed curves, and label what they are: room, door, facade")
+
+
+def _has_labels(scene):
+    """Whether anything is labelled: an object, or some of its faces."""
+    if any(names.LABEL in item for item in scene.objects):
+        return True
+    labelled = {material for material in bpy.data.materials if names.LABEL in material}
+    return (
+        any(slot.material in labelled for item in scene.objects for slot in item.material_slots) if labelled else False
+    )
 
 
 def register():

@@ -34,13 +34,15 @@ class GEOANALOGY_PT_results(SidebarPanel, bpy.types.Panel):
         self._draw_reasons(context, layout)
 
     def _draw_learned(self, context, layout, node):
-        rule = rule_of(node)
-        if not rule:
+        if names.RULE not in node:
             return
+        rule = rule_of(node)
         box = layout.box()
         box.label(text="Learned", icon="INFO")
         for relation in rule[:MOST_LISTED]:
             share(box, relation.text, relation.share)
+        if not rule:
+            hint(box, "The examples differ in all that can be told; add one like another", "NONE")
         layout.operator("geoanalogy.select_examples", icon="RESTRICT_SELECT_OFF")
         self._draw_unfamiliar(context.scene.geoanalogy, layout.box(), node)
         novelty = novelty_of(context.active_object, node)

@@ -34,7 +34,7 @@ class Relation:
     weight : float
         How surely the examples agree in it, 0 to 1.
     label : str
-        Label of the element it is a relation to; "" for the parent.
+        Label of the element it is a relation to; "" for the parent, and for a size, which is a relation to nothing.
     """
 
     text: str
@@ -43,7 +43,7 @@ class Relation:
 
 
 def learned_rule(lesson: Lesson, parent_label: str) -> list[Relation]:
-    """What the examples have in common with the element of each label that is nearest to them.
+    """What the examples have in common with the element of each label that is nearest to them, and with each other.
 
     Parameters
     ----------
@@ -56,6 +56,25 @@ def learned_rule(lesson: Lesson, parent_label: str) -> list[Relation]:
     list of Relation
         The surest first.
     """
+    found = _relations(lesson, parent_label)
+    for axis, sure in enumerate(_alike(lesson)):
+        if sure >= TOLD and not any(r.text.startswith(f"same {EXTENTS[axis]} as") for r in found):
+            size = np.median(lesson.sizes[lesson.positive, axis])
+            found.append(Relation(f"{size:.3g} {('wide', 'high')[axis]}", float(sure), ""))
+    return sorted(found, key=lambda r: (-r.weight, r.text))
+
+
+def _alike(lesson: Lesson) -> Array:
+    """How surely the examples agree in their widths and heights."""
+    sizes = lesson.sizes[lesson.positive]
+    if len(sizes) < 2:
+        return np.ones(2)
+    first, second = np.triu_indices(len(sizes), 1)
+    apart: Array = (sizes[first] - sizes[second]) / lesson.widths[:2]
+    return np.exp(-(apart**2) / 2).mean(axis=0)  # type: ignore[no-any-return]
+
+
+def _relations(lesson: Lesson, parent_label: str) -> list[Relation]:
     found = []
     for key, values in lesson.kept.boxes.items():
         seen = values[lesson.positive, 0]
@@ -89,7 +108,7 @@ def reasons(lesson: Lesson, parent_label: str, matches: dict[str, Match]) -> lis
         For each box, the surest first.
     """
     told: dict[str, str] = {}
-    for relation in learned_rule(lesson, parent_label):
+    for relation in _relations(lesson, parent_label):
         told[relation.label] = f"{told[relation.label]}, {relation.text}" if relation.label in told else relation.text
     keys = [key for key, match in matches.items() if match.of_boxes]
     strength = np.stack(

@@ -248,8 +248,15 @@ def test_what_cannot_be_built_is_told_and_changes_nothing(operator, settings, me
     assert everything() == before
 
 
-def test_a_label_must_be_given_by_name_or_by_an_object():
+def test_without_an_active_object_what_the_active_operation_placed_is_meant():
     houses()
+    bpy.context.view_layer.objects.active = None
+    assert bridge("tree.building").label_here(bpy.context, "") == "house"
+    assert bridge("tree.building").label_here(bpy.context, " facade ") == "facade"
+
+
+def test_a_label_must_be_given_by_name_by_an_object_or_by_an_operation():
+    parcels()
     bpy.context.view_layer.objects.active = None
     with pytest.raises(RuntimeError, match="nothing says what is meant; type a label, or click an object that has one"):
         bpy.ops.geoanalogy.extrude(EXEC, True)

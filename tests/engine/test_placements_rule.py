@@ -32,6 +32,15 @@ def test_what_the_examples_differ_in_is_left_out():
     assert "centred vertically on the room" in told
 
 
+def test_a_size_that_is_always_the_same_is_told():
+    wall = ga.Scene([polygon(0, 0, 12, 6, "wall", "a"), polygon(20, 0, 7, 9, "wall", "b")])
+    told = rule_of(wall, [ga.Rectangle(2, 4, 1, 1.5), ga.Rectangle(5, 1.5, 1, 1.5), ga.Rectangle(24, 6, 1, 2.5)])
+    assert told["1 wide"].weight == 1.0 and told["1 wide"].label == ""
+    assert not any(text.endswith("high") for text in told)
+    told = rule_of(STREET, [below(STREET, i, overhang=0.0) for i in ("f 0 0", "g 2 1", "g 1 2")])
+    assert "same width as the window" in told and not any(text.endswith("wide") for text in told)
+
+
 def test_shares_are_told_where_they_alone_agree():
     rooms = ga.Scene([polygon(0, 0, 8, 6, "room", "a"), polygon(10, 0, 4, 6, "room", "b")])
     told = rule_of(rooms, [ga.Rectangle(3, 3, 2, 1), ga.Rectangle(11.5, 3, 1, 1)])

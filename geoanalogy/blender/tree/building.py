@@ -19,6 +19,7 @@ from ..reading.ground import labels_of
 from ..reading.planes import Plane
 from .editing import chosen_outputs, free_id
 from .evaluating import after_steps, evaluations, read_surroundings
+from .node_settings import stored_settings
 from .store import ensure_tree, ordered_nodes, tree_of
 from .whole import Shown, whole_steps, write_whole
 from .writing_nodes import add_node
@@ -84,7 +85,7 @@ def label_here(context: bpy.types.Context, wanted: str) -> str:
     ----------
     context : bpy.types.Context
     wanted : str
-        Empty: that of the active object, be it of the plan or a result.
+        Empty: that of the active object, be it of the plan or a result, else what the active operation has placed.
 
     Returns
     -------
@@ -93,12 +94,15 @@ def label_here(context: bpy.types.Context, wanted: str) -> str:
     Raises
     ------
     InputError
-        Where the active object has none.
+        Where neither has one.
     """
     if wanted.strip():
         return wanted.strip()
     item = context.active_object
     label = "" if item is None else str(item.get(names.LABEL, "") or labels_of(context.scene).get(item.name, ""))
+    tree = tree_of(context.scene)
+    if not label and tree is not None and tree.nodes.active is not None:
+        label = str(stored_settings(tree.nodes.active).get("label", ""))
     if not label:
         raise InputError("nothing says what is meant; type a label, or click an object that has one")
     return label
