@@ -120,11 +120,9 @@ def stroke_lines(data: bpy.types.ID, name: str) -> Iterator[Line]:
     ------
     Line
     """
-    for layer in data.layers:
-        frame = layer.current_frame()
-        if layer.hide or frame is None or not len(frame.drawing.curve_offsets):
+    for layer, drawing in shown_drawings(data):
+        if not len(drawing.curve_offsets):
             continue
-        drawing = frame.drawing
         offsets = _values(drawing.curve_offsets, "value", np.int32)
         position = _attribute(drawing, "position", "vector", np.zeros((offsets[-1], 3)))
         cyclic = _attribute(drawing, "cyclic", "value", np.zeros(len(offsets) - 1, dtype=bool))
@@ -137,6 +135,28 @@ def stroke_lines(data: bpy.types.ID, name: str) -> Iterator[Line]:
                 points = bezier_points(handles[0][a:b], points, handles[1][a:b], bool(cyclic[i]), STROKE_RESOLUTION)
             points = points @ placed[:3, :3].T + placed[:3, 3]
             yield Line(points, bool(cyclic[i]), f"stroke {i + 1} of layer {layer.name!r} of {name}")
+
+
+def shown_drawings(
+    data: bpy.types.ID,
+) -> Iterator[tuple[bpy.types.GreasePencilLayer, bpy.types.GreasePencilDrawing]]:
+    """What grease pencil shows at the playhead.
+
+    Parameters
+    ----------
+    data : bpy.types.GreasePencil
+
+    Yields
+    ------
+    (bpy.types.GreasePencilLayer, bpy.types.GreasePencilDrawing)
+        Of every layer that is hidden neither by itself nor with its groups.
+    """
+    for layer in data.layers:
+        frame, node = layer.current_frame(), layer
+        while node is not None and not node.hide:
+            node = node.parent_group
+        if node is None and frame is not None:
+            yield layer, frame.drawing
 
 
 def closed(points: Array, cyclic: bool, name: str) -> Array:

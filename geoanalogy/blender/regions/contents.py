@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ...errors import InputError
 from .. import names
+from ..reading.curves import shown_drawings
 from ..reading.planes import Plane
 
 Array = NDArray[np.float64]
@@ -22,6 +23,27 @@ MOST_POINTS = 100_000
 
 #: Length of the axes by which a rigid object is carried, scene units.
 AXIS = 1e-2
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where points are carried to.
+
+    Attributes
+    ----------
+    points : ndarray of shape (n, 3)
+        Plane coordinates (x, y, height).
+    scale : ndarray of shape (n,)
+        Local size of the mapping.
+    confidence : ndarray of shape (n,)
+    mirrored : bool
+        Whether the mapping reflects.
+    """
+
+    points: Array
+    scale: Array
+    confidence: Array
+    mirrored: bool
 
 
 def world_matrix(item: bpy.types.Object) -> Array:
@@ -69,28 +91,24 @@ def points_of(item: bpy.types.Object) -> Array:
         raise InputError(f"{name} has no points to carry over; draw something with it first")
     if len(local) > MOST_POINTS:
         raise InputError(f"{name} has {len(local)} points; simplify it to {MOST_POINTS}")
-    placed = local @ matrix[:3, :3].T + matrix[:3, 3]
-    if not np.isfinite(placed).all():
+    if not (np.isfinite(local).all() and np.isfinite(matrix).all()):
         raise InputError(f"{name} has a point that is not finite (NaN or infinity); delete that point")
-    return placed
+    return local @ matrix[:3, :3].T + matrix[:3, 3]
 
 
-def carried(
-    item: bpy.types.Object, points: Array, scale: Array, confidence: Array, mirrored: bool, plane: Plane, name: str
-) -> bpy.types.Object:
+def carried(item: bpy.types.Object, places: Places, source: Plane, plane: Plane, name: str) -> bpy.types.Object:
     """A copy of an object with its points elsewhere; it is in no collection yet.
+
+    Its origin and axes go with the points, by the similarity that comes nearest to the mapping: what depends on them,
+    a mirroring modifier or a texture by object coordinates, acts on the copy as on the original.
 
     Parameters
     ----------
     item : bpy.types.Object
-    points : ndarray of shape (n, 3)
-        Plane coordinates (x, y, height) of the points that `points_of` gives.
-    scale : ndarray of shape (n,)
-        Local size of the mapping.
-    confidence : ndarray of shape (n,)
-    mirrored : bool
-        Whether the mapping reflects.
-    plane : Plane
+    places : Places
+        Of the points that `points_of` gives.
+    source, plane : Plane
+        Where the object lies, and where its copy goes.
     name : str
 
     Returns
@@ -104,17 +122,17 @@ def carried(
     for constraint in list(made.constraints):
         made.constraints.remove(constraint)
     if item.type not in ("MESH", "CURVE", "GREASEPENCIL"):
-        _place_rigid(made, item, points, plane)
+        _place_rigid(made, item, places.points, plane)
         return made
     made.data = item.data.copy()
-    middle = points.mean(axis=0)
-    frame = plane.matrix.copy()
-    frame[:3, 3] = plane.to_world([middle])[0]
-    _set_matrix(made, frame)
-    local, start = points - middle, 0
+    size, moved = _similarity(source.to_plane(points_of(item)), places)
+    _set_matrix(made, plane.matrix @ moved @ np.linalg.inv(source.matrix) @ world_matrix(item))
+    # Blender keeps a place, a turn and a size, in single precision: the points make up for what that leaves. An object
+    # that is scaled flat has no inverse.
+    kept = np.array(made.matrix_basis)
+    local, start = (plane.to_world(places.points) - kept[:3, 3]) @ np.linalg.pinv(kept[:3, :3]).T, 0
     if item.type == "MESH" and made.data.shape_keys is not None:
         made.shape_key_clear()
-    thickness = scale * np.cbrt(abs(np.linalg.det(world_matrix(item)[:3, :3])))
     trusted = []
     for one in _arrays(made):
         part = slice(start, start + len(one.points))
@@ -123,9 +141,9 @@ def carried(
         if one.radii is not None:
             radii = np.empty(len(one.radii), np.float32)
             one.radii.foreach_get(one.radius, radii)
-            one.radii.foreach_set(one.radius, (radii * thickness[part]).astype(np.float32))
+            one.radii.foreach_set(one.radius, (radii * places.scale[part] / size).astype(np.float32))
         if one.attributes is not None:
-            trusted.append((one.attributes, confidence[part]))
+            trusted.append((one.attributes, places.confidence[part]))
         start = part.stop
     # A new attribute may move the others in memory: all coordinates are written by now.
     for attributes, values in trusted:
@@ -133,8 +151,6 @@ def carried(
         attribute = known or attributes.new(names.CONFIDENCE, "FLOAT", "POINT")
         attribute.data.foreach_set("value", values.astype(np.float32))
     if item.type == "MESH":
-        if mirrored:
-            made.data.flip_normals()
         made.data.update()
     else:
         made.data.update_tag()
@@ -186,11 +202,8 @@ def _arrays(item: bpy.types.Object) -> list[_Array]:
             else:
                 found.append(_Array(spline.points, "co", 4, radii=spline.points, radius="radius"))
         return found
-    for layer in data.layers:
-        frame = layer.current_frame()
-        if layer.hide or frame is None:
-            continue
-        attributes, placed = frame.drawing.attributes, np.array(layer.matrix_local)
+    for layer, drawing in shown_drawings(data):
+        attributes, placed = drawing.attributes, np.array(layer.matrix_local)
         radii = attributes.get("radius")
         for key in ("position", "handle_left", "handle_right"):
             attribute = attributes.get(key)
@@ -199,6 +212,25 @@ def _arrays(item: bpy.types.Object) -> list[_Array]:
                 kept = attributes if key == "position" else None
                 found.append(_Array(attribute.data, "vector", 3, placed, own, "value", kept))
     return found
+
+
+def _similarity(before: Array, places: Places) -> tuple[float, Array]:
+    """The size and the matrix of the similarity between planes that takes points nearest to their places."""
+    middles = before.mean(axis=0), places.points.mean(axis=0)
+    a, b = ((p - middle)[:, :2] @ (1.0, 1.0j) for p, middle in zip((before, places.points), middles, strict=True))
+    a = a.conj() if places.mirrored else a
+    spread = float((a.conj() @ a).real)
+    # Of a single point, and of points that all lie above each other, no turn is known.
+    grown = complex(a.conj() @ b / spread) if spread > 0.0 else 0j
+    size = abs(grown) or float(places.scale.mean()) or 1.0
+    turn = grown / size if grown else 1.0
+    x = np.array((turn.real, turn.imag))
+    y = np.array((-turn.imag, turn.real)) * (-1.0 if places.mirrored else 1.0)
+    matrix = np.eye(4)
+    matrix[:2, 0], matrix[:2, 1] = size * x, size * y
+    matrix[2, 2] = size
+    matrix[:3, 3] = middles[1] - matrix[:3, :3] @ middles[0]
+    return size, matrix
 
 
 def _get(one: _Array) -> Array:

@@ -128,11 +128,11 @@ def lines_of(item: bpy.types.Object) -> list[Array]:
             if len(one.points) > 1
         ]
     matrix = np.array(item.matrix_world)
+    if not all(np.isfinite(line).all() for line in lines):
+        raise InputError(f"{name} has a point that is not finite (NaN or infinity); delete that point")
     placed = [line @ matrix[:3, :3].T + matrix[:3, 3] for line in lines]
     for line in placed:
-        if not np.isfinite(line).all():
-            raise InputError(f"{name} has a point that is not finite (NaN or infinity); delete that point")
-        if np.abs(line).max() > LARGEST_COORDINATE:
+        if not np.abs(line).max() <= LARGEST_COORDINATE:
             raise InputError(f"{name} has a point beyond {LARGEST_COORDINATE:g}; move it nearer")
     return placed
 

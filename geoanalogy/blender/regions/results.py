@@ -16,7 +16,7 @@ from ..holders import ensure_holder_with
 from ..reading.planes import Plane
 from ..tree.store import engine_node
 from ..writing.instances import collection_of, ensure_results_collection, results_in
-from .contents import carried, points_of
+from .contents import Places, carried, points_of
 from .drawings import line_curve
 from .queries import TARGET_COLOUR
 
@@ -341,8 +341,8 @@ def _made(
     for item, count in contents:
         own = target.points[start : start + count]
         height = source.to_plane(points_of(item))[:, 2] + LAYER * size * rank
-        points = np.column_stack([own[:, :2], height])
-        found.append(carried(item, points, own[:, 2], own[:, 3], target.mirrored, plane, name))
+        places = Places(np.column_stack([own[:, :2], height]), own[:, 2], own[:, 3], target.mirrored)
+        found.append(carried(item, places, source, plane, name))
         start += count
     return found
 
