@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 import geoanalogy as ga
 from geoanalogy.poses.arrangement import arrangement_of
+from geoanalogy.poses.batch import importance_at
 from geoanalogy.poses.candidates import accumulate_in_plane
 from geoanalogy.poses.footprint_candidates import directions
 from geoanalogy.poses.importance import Importance
@@ -81,5 +82,5 @@ def _best_direction(importance: Importance, position: Array) -> Array:
         for start in range(0, len(position), BLOCK):
             part = slice(start, start + BLOCK)
             angle = np.full(len(position[part]), direction)
-            best[part] = np.maximum(best[part], importance(position[part], angle))
+            best[part] = np.maximum(best[part], importance_at(importance, position[part], angle))
     return best

@@ -167,7 +167,7 @@ def _accumulate(importance: Importance, fields: Fields, places: list[_Places]) -
             continue
         # The directional kernel is the same everywhere, and for all samples of a pair.
         lead = a.pair_start
-        miss = direction[:, None, None] - heading[a.target[lead]] - a.turn[:, lead]
+        miss = direction[:, None, None] - heading[a.target[lead]] - a.turn.take(lead, axis=1)
         kernel = np.maximum(0, 1 - np.abs(wrap(miss)) / importance.query.options.direction_width)
         for one, start, end in zip(sets.aligned(a, kernel), first, first[1:], strict=False):
             one.add(total[start:end], fields, samples[:, start:end])
@@ -251,8 +251,8 @@ class _LevelSets:
         size = a.per_pair[pair]
         entry = ranges(a.pair_start[pair], size)
         factor = np.repeat(kernel[which, :, pair].T.astype(np.float32), size, axis=1)
-        value, turn = self.value[:, entry], self.turn[:, entry]
-        weight, fall = self.weight[:, entry] * factor, self.fall[:, entry] * factor
+        value, turn = self.value.take(entry, axis=1), self.turn.take(entry, axis=1)
+        weight, fall = self.weight.take(entry, axis=1) * factor, self.fall.take(entry, axis=1) * factor
         target, sample = self.target[entry], self.sample[entry]
         period = [None if p is None else p[entry] for p in self.period]
         ends = np.bincount(which, weights=size, minlength=len(kernel)).cumsum().astype(np.intp).tolist()

@@ -1,4 +1,4 @@
-"""How well poses answer the example: the importance of section 4.5, evaluated exactly at any pose."""
+"""What poses in an arrangement are asked, and what an answer is worth: the terms of the importance of section 4.5."""
 
 import copy
 from collections.abc import Mapping
@@ -9,10 +9,8 @@ from numpy.typing import NDArray
 from ..relations.elements import ElementType
 from ..relations.table import Positional
 from .arrangement import Arrangement
-from .batch import Batch
 from .matching import Sense, accuracies, answers
 from .query import Query
-from .results import RelationShare
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -103,53 +101,3 @@ class Importance:
         if not self.query.rigid or element is ElementType.SEGMENT:
             return np.ones(len(sample), dtype=bool)
         return (sample == 0) & (element is ElementType.POLYGON)
-
-    def __call__(self, position: Array, angle: Array) -> Array:
-        """The importance of poses, 1 for a perfect copy.
-
-        Parameters
-        ----------
-        position : ndarray of shape (m, 2)
-        angle : ndarray of shape (m,)
-
-        Returns
-        -------
-        ndarray of shape (m,)
-        """
-        return Batch([self]).importance(np.zeros(len(angle), dtype=np.intp), position, angle)
-
-    def explain(self, position: Array, angle: float) -> tuple[RelationShare, ...]:
-        """Which relations carry one pose (figure 4.14).
-
-        Parameters
-        ----------
-        position : ndarray of shape (2,)
-        angle : float
-
-        Returns
-        -------
-        tuple of RelationShare
-            Largest first; their weights add up to the importance.
-        """
-        shares = []
-        for rows in Batch([self]).rows(np.zeros(1, dtype=np.intp)):
-            element, a = rows.element, self.answers[rows.element]
-            misses = rows.misses(position[None], np.array([angle]))
-            k = rows.kernel(misses) * rows.directional(misses)
-            per_relation = np.add.reduceat(a.weight * k, a.pair_start, axis=1) * a.accuracy
-            for start, end in zip(a.feature_start, np.append(a.feature_start[1:], len(a.accuracy)), strict=True):
-                best = start + int(np.argmax(per_relation[:, start:end].sum(axis=0)))
-                source = _place(self.query.arrangement, element, a.source_feature[best])
-                target = _place(self.target, element, a.target_feature[best])
-                for relation, weight in zip(a.relations, per_relation[:, best], strict=True):
-                    if weight > 0:
-                        share = float(weight / self.query.total)
-                        shares.append(RelationShare(relation.name, source[0], target[0], source[1], target[1], share))
-        return tuple(sorted(shares, key=lambda s: -s.weight))
-
-
-def _place(arrangement: Arrangement, element: ElementType, feature: int) -> tuple[str, int]:
-    """Id of the polygon of a feature, and the feature's number in it."""
-    polygon_of = arrangement.elements.polygon_of(element)
-    polygon = polygon_of[feature]
-    return str(arrangement.elements.polygons[polygon].id), int(feature - np.flatnonzero(polygon_of == polygon)[0])

@@ -27,10 +27,13 @@ def level_set(away: NDArray[Real]) -> NDArray[Real]:
     ndarray
         Of the same type.
     """
-    one = away.dtype.type(1)
-    narrow = np.maximum(0, one - away)
-    wide = np.maximum(0, one - away * away.dtype.type(1 / WIDE_WIDTH))
-    return away.dtype.type(1 - WIDE_SHARE) * narrow + away.dtype.type(WIDE_SHARE) * wide  # type: ignore[no-any-return]
+    kernel = away * away.dtype.type(-(1 - WIDE_SHARE + WIDE_SHARE / WIDE_WIDTH))
+    kernel += away.dtype.type(1)
+    # Where only the wide part is left.
+    wide = away * away.dtype.type(-WIDE_SHARE / WIDE_WIDTH)
+    wide += away.dtype.type(WIDE_SHARE)
+    np.maximum(kernel, wide, out=kernel)
+    return np.maximum(kernel, 0, out=kernel)  # type: ignore[no-any-return]
 
 
 def wrap(difference: NDArray[Real], period: NDArray[Real] | float = 2 * np.pi) -> NDArray[Real]:

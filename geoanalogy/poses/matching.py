@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.elements import ElementType, ranges
+from ..relations.elements import ElementType, ranges, run_starts
 from ..relations.table import BOUNDARY_ANGLE, SEGMENT_ANGLE, Kind, Positional
 from .arrangement import Arrangement
 from .options import PoseOptions
@@ -228,24 +228,17 @@ class Answers:
             relations=self.relations,
             target=self.target[entry],
             sample=self.sample[entry],
-            weight=self.weight[:, entry],
-            value=self.value[:, entry],
-            turn=self.turn[:, entry],
+            weight=self.weight.take(entry, axis=1),
+            value=self.value.take(entry, axis=1),
+            turn=self.turn.take(entry, axis=1),
             inner=self.inner[entry],
             contact=self.contact[entry],
             pair_start=np.cumsum(size) - size,
             accuracy=self.accuracy[pairs],
             source_feature=source,
             target_feature=self.target_feature[pairs],
-            feature_start=_changes(source),
+            feature_start=run_starts(source),
         )
-
-
-def _changes(values: Indices) -> Indices:
-    """Where runs of equal values begin."""
-    changed = np.ones(len(values), dtype=bool)
-    np.not_equal(values[1:], values[:-1], out=changed[1:])
-    return np.flatnonzero(changed)
 
 
 def accuracies(query: Query, target: Arrangement) -> dict[ElementType, Array]:
@@ -282,7 +275,7 @@ def answers(query: Query, accuracy: Mapping[ElementType, Array], sense: Sense) -
     for element, question in query.questions.items():
         seen = [s for s in (_seen_through(y, question, element) for y in sense.symmetries) if s is not None]
         # Entries of one feature are neighbours, and so are its pairs here.
-        first = _changes(question.feature)
+        first = run_starts(question.feature)
         asking = question.feature[first]
         source, feature = np.nonzero(accuracy[element][asking] > LEAST_ACCURACY)
         if not len(source) or not seen:
@@ -298,7 +291,7 @@ def answers(query: Query, accuracy: Mapping[ElementType, Array], sense: Sense) -
             relations=question.relations,
             target=np.repeat(feature, size),
             sample=question.sample[entry],
-            weight=question.weight[:, entry],
+            weight=question.weight.take(entry, axis=1),
             value=value[seen_by, :, entry].T,
             turn=turn[seen_by, :, entry].T,
             inner=inner[seen_by, entry],
@@ -307,6 +300,6 @@ def answers(query: Query, accuracy: Mapping[ElementType, Array], sense: Sense) -
             accuracy=accuracy[element][source, feature],
             source_feature=source,
             target_feature=feature,
-            feature_start=_changes(source),
+            feature_start=run_starts(source),
         )
     return result

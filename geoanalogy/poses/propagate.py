@@ -15,6 +15,7 @@ from ..relations.table import RELATIONS
 from ..tolerances import CONTAINED_SHARE
 from .arrangement import Arrangement, arrangement_of
 from .candidates import Candidates, find_candidates
+from .explanation import explain
 from .fields import Fields
 from .footprint_candidates import SLACK, directions_read, find_footprint_candidates
 from .importance import Importance
@@ -301,7 +302,7 @@ class PoseModel:
     def _explain(
         self, surroundings: Callable[[], Arrangement], sense: Sense, scale: float, position: Array, angle: float
     ) -> tuple[RelationShare, ...]:
-        return Importance(self.query, surroundings(), sense, scale).explain(position, angle)
+        return explain(Importance(self.query, surroundings(), sense, scale), position, angle)
 
     def to_dict(self) -> dict[str, Any]:
         """The model as plain data: the example's surroundings, pose, footprint and options.

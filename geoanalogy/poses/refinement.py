@@ -6,11 +6,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .batch import Batch, Misses, Rows
+from .batch import Batch
 from .candidates import Candidates
 from .importance import Importance
 from .kernels import WIDE_SHARE, WIDE_WIDTH
 from .rivals import Refined, Rivals, Stands
+from .rows import Misses, Rows
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -100,13 +101,14 @@ def refine(
         np.concatenate([c.angle for c in candidates]),
         np.concatenate([c.strength for c in candidates]),
     )
-    strong = Batch(importances, STRONG)
+    every = Batch(importances)
+    strong = every.strongest(STRONG)
     rivals = Rivals(importances, strong, np.ones(len(importances)) if factor is None else np.array(factor), stands)
     start = start.of(rivals.standing(start, SLACK_AT_FIRST))
     start = replace(start, value=np.full(len(start.which), -1.0))
     found = _descend(strong, start, range(ITERATIONS + 1), rivals)
     found = _climb(strong, _probe(strong, found, rivals), rivals)
-    value = Batch(importances).importance(found.which, found.position, found.angle)
+    value = every.importance(found.which, found.position, found.angle)
     return Refined(found.which, found.position, found.angle, value)
 
 
@@ -222,18 +224,20 @@ def _step(
     unit = batch.unit[which]
     for r in rows:
         misses = r.misses(position, angle, uphill=True)
-        kernel = r.kernel(misses)
-        directional = r.directional(misses)
-        pairs = r.of_pairs(kernel * directional)
+        kernel, directional = r.kernel(misses), r.directional(misses)
+        worth = kernel if directional is None else kernel * directional
+        pairs = r.of_pairs(worth)
         top = r.best(pairs)
         total += r.of_poses(top)
         wins = (pairs == np.repeat(top, r.per_feature)) & (pairs > 0)
         strength = np.repeat(wins * r.accuracy, r.per_pair) * r.weight
-        sums += _pulls(r, misses, angle, strength * directional, unit[0, 2], met)
-        if r.directed.any():
+        pull = strength if directional is None else strength * directional
+        sums += _pulls(r, misses, angle, pull, unit[0, 2], met)
+        if misses.turn is not None:
             turn = misses.turn / unit[0, 2]
             off = np.abs(turn)
-            weight = (off < 1) * r.directed * strength * kernel / np.maximum(off, met)
+            kernel *= strength
+            weight = kernel * ((off < 1) * r.directed / np.maximum(off, met))
             # Reference directions are taken as constant: those of straight segments are.
             sums[5] += r.summed(weight.sum(axis=0))
             sums[8] += r.summed((weight * turn).sum(axis=0))
@@ -248,14 +252,22 @@ def _pulls(r: Rows, misses: Misses, angle: Array, pull: Array, turn_unit: float,
     """What the misses of a type of element add to the normal equations; shape (9, m)."""
     miss = misses.place / r.width
     far = np.abs(miss)
-    weight = ((1 - WIDE_SHARE) * (far < 1) + WIDE_SHARE / WIDE_WIDTH * (far < WIDE_WIDTH)) * pull
-    weight *= misses.allowed / np.maximum(far, met)
-    miss = np.where(weight > 0, miss, 0.0)
+    weight = (1 - WIDE_SHARE) * (far < 1)
+    weight += WIDE_SHARE / WIDE_WIDTH * (far < WIDE_WIDTH)
+    weight *= pull
+    weight /= np.maximum(far, met)
+    if misses.allowed is not None:
+        weight *= misses.allowed
     assert misses.uphill is not None
-    x, y = misses.uphill.real, misses.uphill.imag
+    x, y = misses.uphill.real.copy(), misses.uphill.imag.copy()
     # A turn of the pose moves a sample at right angles to its arm.
     arm_x, arm_y = r.arms(angle)
-    around = (arm_x * y - arm_y * x) * (turn_unit / r.width)
+    around = arm_x * y
+    around -= arm_y * x
+    around *= turn_unit / r.width
     wx, wy, wa = weight * x, weight * y, weight * around
-    terms = (wx * x, wx * y, wx * around, wy * y, wy * around, wa * around, wx * miss, wy * miss, wa * miss)
-    return r.summed(np.stack([t.sum(axis=0) for t in terms]))
+    factors = ((wx, x), (wx, y), (wx, around), (wy, y), (wy, around), (wa, around), (wx, miss), (wy, miss), (wa, miss))
+    terms = np.empty((9, miss.shape[1]))
+    for term, (one, other) in zip(terms, factors, strict=True):
+        np.einsum("kn,kn->n", one, other, out=term)
+    return r.summed(terms)

@@ -197,10 +197,11 @@ class Rivals:
         which = poses.which[good]
         unit = self._unit[which]
         facing = np.column_stack([np.cos(poses.angle[good]), np.sin(poses.angle[good])]) / unit[:, 2:]
-        place = np.column_stack([poses.position[good] / unit[:, :2], facing])
         # One that has a better one beside it is the same.
-        place = np.where(table[..., None] >= 0, place[table], np.nan)
-        near = np.abs(place[:, :, None] - place[:, None]).max(axis=3) < SAME_MAXIMUM
+        near = (table[:, :, None] >= 0) & (table[:, None] >= 0)
+        for coordinate in (*(poses.position[good] / unit[:, :2]).T, *facing.T):
+            place = coordinate[table]
+            near &= np.abs(place[:, :, None] - place[:, None]) < SAME_MAXIMUM
         if not across:
             near &= which[table][:, :, None] == which[table][:, None]
         alone = ~np.tril(near, -1).any(axis=2) & (table >= 0)

@@ -7,6 +7,7 @@ of them and all points in one call.
 import enum
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cache, cached_property
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -219,34 +220,27 @@ class Elements:
         Returns
         -------
         Elements
-            With `n` elements of the type and none of the others; polygons are left out.
+            With `n` elements of the type, as far as points see them, and nothing else.
         """
-        none = np.zeros(0, dtype=np.intp)
-        per_segment = rows if element is ElementType.SEGMENT else none
-        per_corner = rows if element is ElementType.CORNER else none
-        per_polygon = rows if element is ElementType.POLYGON else none
-        edges, owner = none, none
+        edges = owner = np.zeros(0, dtype=np.intp)
         if element is not ElementType.CORNER:
             group = self.edge_segment if element is ElementType.SEGMENT else self.edge_polygon
-            first = np.searchsorted(group, np.arange(self.count(element) + 1))
             if len(group) == self.count(element):  # an edge each
                 edges, owner = rows, np.arange(len(rows))
             else:
+                first = np.searchsorted(group, np.arange(self.count(element) + 1))
                 count = np.diff(first)[rows]
                 edges, owner = ranges(first[rows], count), np.repeat(np.arange(len(rows)), count)
             if edges_kept is not None:
                 kept = edges_kept[edges]
                 edges, owner = edges[kept], owner[kept]
         return replace(
-            self,
-            polygons=(),
-            segment_label=(),
+            _nothing(),
+            frame=self.frame,
             edge_segment=owner,
             edge_polygon=owner,
-            **{name: getattr(self, name)[edges] for name in _OF_EDGES},
-            **{name: getattr(self, name)[per_segment] for name in _OF_SEGMENTS},
-            **{name: getattr(self, name)[per_corner] for name in _OF_CORNERS},
-            **{name: getattr(self, name)[per_polygon] for name in _OF_POLYGONS},
+            **{name: getattr(self, name).take(edges, axis=0) for name in _SEEN_OF_EDGES[element]},
+            **{name: getattr(self, name).take(rows, axis=0) for name in _SEEN[element]},
         )
 
     def count(self, element: ElementType) -> int:
@@ -260,7 +254,13 @@ class Elements:
         -------
         int
         """
-        return len(self.polygon_of(element))
+        of = {ElementType.POLYGON: self.polygon_orientation, ElementType.SEGMENT: self.segment_length}
+        return len(of.get(element, self.corner_opening))
+
+    @cached_property
+    def first_edges(self) -> Indices:
+        """The first edge of each polygon that has edges; shape (polygons,)."""
+        return run_starts(self.edge_polygon)
 
     def heading(self, element: ElementType) -> Array | None:
         """Direction of every element of a type, where each has one: straight segments do.
@@ -307,10 +307,27 @@ _OF_EDGES = (
 _OF_SEGMENTS = ("segment_polygon", "segment_length", "segment_curvature", "segment_closed")
 _OF_CORNERS = ("corner_polygon", "corner_vertex", "corner_before", "corner_opening")
 _OF_POLYGONS = ("polygon_centroid", "polygon_orientation")
+#: What points see of edges, and of the elements themselves, by the type of element.
+_SEEN_OF_EDGES: dict[ElementType, tuple[str, ...]] = {
+    ElementType.POLYGON: tuple(n for n in _OF_EDGES if n not in ("edge_vector", "edge_offset")),
+    ElementType.SEGMENT: ("edge_start", "edge_direction", "edge_heading", "edge_length", "edge_offset", "edge_turns"),
+    ElementType.CORNER: (),
+}
+_SEEN: dict[ElementType, tuple[str, ...]] = {
+    ElementType.POLYGON: _OF_POLYGONS,
+    ElementType.SEGMENT: ("segment_length", "segment_closed"),
+    ElementType.CORNER: ("corner_vertex", "corner_before", "corner_opening"),
+}
 _ARRAYS = (*_OF_EDGES, *_OF_SEGMENTS, *_OF_CORNERS, *_OF_POLYGONS, "edge_polygon", "edge_segment")
 
 #: The features of polygons that are in use: they are asked for again with every arrangement that holds them.
 _KEPT: WeakKeyDictionary[Polygon, Elements] = WeakKeyDictionary()
+
+
+@cache
+def _nothing() -> Elements:
+    """No elements at all."""
+    return Elements.of(())
 
 
 def ranges(start: Indices, count: Indices) -> Indices:
@@ -334,6 +351,27 @@ def ranges(start: Indices, count: Indices) -> Indices:
     runs: Indices = np.arange(count.sum())
     runs += np.repeat(start - before, count)
     return runs
+
+
+def run_starts(values: Indices) -> Indices:
+    """Where runs of equal values begin.
+
+    Parameters
+    ----------
+    values : ndarray of shape (n,), int
+
+    Returns
+    -------
+    ndarray of int
+
+    Examples
+    --------
+    >>> run_starts(np.array([4, 4, 1, 4])).tolist()
+    [0, 2, 3]
+    """
+    changed = np.ones(len(values), dtype=bool)
+    np.not_equal(values[1:], values[:-1], out=changed[1:])
+    return np.flatnonzero(changed)
 
 
 def _turns(steps: Array) -> Array:

@@ -15,6 +15,25 @@ Array = NDArray[np.float64]
 Directions = NDArray[np.complex128]
 
 
+def length(x: Array, y: Array) -> Array:
+    """Length of ways in the plane.
+
+    Coordinates are bounded, so that their squares are: without the guard against overflow that ``hypot`` has, it takes
+    a tenth of the time.
+
+    Parameters
+    ----------
+    x, y : ndarray of one shape
+
+    Returns
+    -------
+    ndarray of the same shape
+    """
+    squared = x * x
+    squared += y * y
+    return np.sqrt(squared, out=squared)
+
+
 class Nearest(Protocol):
     """The boundary place nearest to each point, per segment or polygon; all shapes are (elements, points)."""
 
@@ -168,7 +187,7 @@ class Observation:
         along = np.clip(x * direction[:, :1] + y * direction[:, 1:], 0.0, e.edge_length[:, None])
         x -= along * direction[:, :1]
         y -= along * direction[:, 1:]
-        return along, np.hypot(x, y)
+        return along, length(x, y)
 
     def _nearest(self, group: NDArray[np.intp], count: int, offset: Array, ends: NDArray[np.bool_]) -> Nearest:
         along, distance = self._edges
@@ -220,7 +239,7 @@ class Observation:
         y = self.points[:, 1] - e.edge_start[nearest.edge, 1] - share * e.edge_vector[nearest.edge, 1]
         touching = nearest.distance <= ZERO_LENGTH * e.edge_length[nearest.edge]
         return np.where(
-            touching, 1j * e.edge_direction[nearest.edge], (x + 1j * y) / np.where(touching, 1.0, np.hypot(x, y))
+            touching, 1j * e.edge_direction[nearest.edge], (x + 1j * y) / np.where(touching, 1.0, length(x, y))
         )
 
     def along(self, nearest: Nearest) -> Directions:
@@ -252,7 +271,7 @@ class Observation:
         v = self.elements.corner_vertex
         x = self.points[:, 0] - v[:, :1]
         y = self.points[:, 1] - v[:, 1:]
-        return np.hypot(x, y), np.arctan2(y, x)
+        return length(x, y), np.arctan2(y, x)
 
     @cached_property
     def corner_turn(self) -> Array:
@@ -275,7 +294,7 @@ class Observation:
         c = self.elements.polygon_centroid
         x = c[:, :1] - self.points[:, 0]
         y = c[:, 1:] - self.points[:, 1]
-        return np.hypot(x, y), np.arctan2(y, x)
+        return length(x, y), np.arctan2(y, x)
 
     @cached_property
     def box(self) -> tuple[Array, Array, Array]:

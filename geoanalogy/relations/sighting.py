@@ -7,11 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..tolerances import ZERO_LENGTH
-from .elements import Elements, ElementType, Indices
-from .observation import Array, Directions, Nearest, Observation
+from .elements import Elements, ElementType, Indices, run_starts
+from .observation import Array, Directions, Nearest, Observation, length
+
+#: Stands for the points of an observation: there is one of each element.
+_ONE = np.zeros((1, 2))
 
 
-@dataclass(frozen=True)
+@dataclass(slots=True)
 class NearestOfOne:
     """The boundary place of one element nearest to one point, for many such pairs; all shapes are (n, 1).
 
@@ -51,7 +54,7 @@ class Sighting(Observation):
     """
 
     def __init__(self, elements: Elements, element: ElementType, x: Array, y: Array) -> None:
-        super().__init__(elements, np.zeros((1, 2)))
+        super().__init__(elements, _ONE)
         self._element = element
         self._x = x
         self._y = y
@@ -62,23 +65,26 @@ class Sighting(Observation):
         single = len(owner) == len(self._x)
         x = (self._x if single else self._x[owner]) - e.edge_start[:, 0]
         y = (self._y if single else self._y[owner]) - e.edge_start[:, 1]
-        ux, uy = e.edge_direction.real, e.edge_direction.imag
-        along = np.clip(x * ux + y * uy, 0.0, e.edge_length)
+        ux, uy, size, tangent = e.edge_direction.real, e.edge_direction.imag, e.edge_length, e.edge_heading
+        along = x * ux
+        along += y * uy
+        np.maximum(along, 0.0, out=along)
+        np.minimum(along, size, out=along)
         x -= along * ux
         y -= along * uy
-        distance = np.hypot(x, y)
+        distance = self._edge_distance = length(x, y)
         edge = np.arange(len(owner))
         if not single:
-            first = np.flatnonzero(np.append(True, np.diff(owner) != 0))
+            first = e.first_edges
             least = np.minimum.reduceat(distance, first)
             at = np.flatnonzero(distance == least[owner])
-            edge = at[np.append(True, np.diff(owner[at]) != 0)]
+            edge = at[run_starts(owner[at])]
             x, y, along, distance = x[edge], y[edge], along[edge], distance[edge]
-            ux, uy = ux[edge], uy[edge]
-        between = (along > 0) & (along < e.edge_length[edge])
-        tangent = e.edge_heading[edge]
-        across = ux * y - uy * x
-        left = across >= -ZERO_LENGTH * e.edge_length[edge]
+            ux, uy, size, tangent, offset = ux[edge], uy[edge], size[edge], tangent[edge], offset[edge]
+        between = (along > 0) & (along < size)
+        across = ux * y
+        across -= uy * x
+        left = across >= -ZERO_LENGTH * size
         if ends is not None:
             end = (along > 0).astype(np.intp)
             row = np.flatnonzero(~between & (distance > 0) & ~ends[edge, end])
@@ -89,7 +95,7 @@ class Sighting(Observation):
             left[row] = ~outer
         return NearestOfOne(
             distance=distance[:, None],
-            arc=(along + offset[edge])[:, None],
+            arc=(along + offset)[:, None],
             tangent=tangent[:, None],
             between=between[:, None],
             edge=edge[:, None],
@@ -128,13 +134,9 @@ class Sighting(Observation):
         ndarray of shape (edges,), bool
         """
         e = self.elements
-        x = self._x[e.edge_polygon] - e.edge_start[:, 0]
-        y = self._y[e.edge_polygon] - e.edge_start[:, 1]
-        along = np.clip(x * e.edge_direction.real + y * e.edge_direction.imag, 0.0, e.edge_length)
-        distance = np.hypot(x - along * e.edge_direction.real, y - along * e.edge_direction.imag)
         farthest = self.boundary.distance[:, 0] + 2 * reach
         # A little more: the nearest edge itself is always among them.
-        return distance <= (1 + ZERO_LENGTH) * farthest[e.edge_polygon] + ZERO_LENGTH
+        return self._edge_distance <= (1 + ZERO_LENGTH) * farthest[e.edge_polygon] + ZERO_LENGTH
 
     def away(self, nearest: Nearest) -> Directions:
         """Direction from nearest places to the points: where the distance grows.
@@ -179,23 +181,28 @@ class Sighting(Observation):
     @cached_property
     def corner(self) -> tuple[Array, Array]:
         """Distance and direction (radians) from the corner of each pair to its point; both (n, 1)."""
-        way = self._from_corner
-        return np.abs(way), np.angle(way)
+        x, y = self._from_corner
+        return length(x, y)[:, None], np.arctan2(y, x)[:, None]
 
     @cached_property
-    def _from_corner(self) -> Directions:
+    def _from_corner(self) -> tuple[Array, Array]:
         vertex = self.elements.corner_vertex
-        return ((self._x - vertex[:, 0]) + 1j * (self._y - vertex[:, 1]))[:, None]
+        return self._x - vertex[:, 0], self._y - vertex[:, 1]
 
     @cached_property
     def from_corner(self) -> Directions:
         """Direction from the corner of each pair to its point, of length 1 or, at the corner, 0; shape (n, 1)."""
-        way, away = self._from_corner, self.corner[0]
-        return np.divide(way, away, out=np.zeros_like(way), where=away > 0)
+        x, y = self._from_corner
+        away = self.corner[0][:, 0]
+        away = np.where(away > 0, away, 1.0)
+        way = np.empty(len(x), dtype=np.complex128)
+        np.divide(x, away, out=way.real)
+        np.divide(y, away, out=way.imag)
+        return way[:, None]
 
     @cached_property
     def centroid(self) -> tuple[Array, Array]:
         """Distance and direction (radians) from the point of each pair to its polygon's centroid; both (n, 1)."""
         centroid = self.elements.polygon_centroid
         x, y = centroid[:, 0] - self._x, centroid[:, 1] - self._y
-        return np.hypot(x, y)[:, None], np.arctan2(y, x)[:, None]
+        return length(x, y)[:, None], np.arctan2(y, x)[:, None]

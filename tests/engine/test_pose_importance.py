@@ -13,8 +13,9 @@ from strategies import Similarity
 
 from geoanalogy import Polygon, Pose, PoseOptions, Scene, learn_pose
 from geoanalogy.poses.arrangement import arrangement_of
-from geoanalogy.poses.batch import Batch
+from geoanalogy.poses.batch import Batch, importance_at
 from geoanalogy.poses.candidates import Candidates
+from geoanalogy.poses.explanation import explain
 from geoanalogy.poses.importance import Importance
 from geoanalogy.poses.matching import Sense, Symmetry, matching_accuracy, senses
 from geoanalogy.poses.query import CONTEXT, FOOTPRINT_REACH, Query, footprint_samples
@@ -36,7 +37,7 @@ def importance_of(scene, pose, footprint=None, target="room 0", sense=PLAIN, sca
 
 
 def at(importance, pose):
-    return float(importance(np.array([pose.position]), np.array([pose.angle]))[0])
+    return float(importance_at(importance, np.array([pose.position]), np.array([pose.angle]))[0])
 
 
 # What the example asks
@@ -183,7 +184,7 @@ def test_no_pose_is_worth_more_than_the_bound(pose, footprint):
     importance = importance_of(scene, pose, footprint, "room 1")
     rng = np.random.default_rng(3)
     position = rng.uniform(scene.polygon("room 1").bounds[:2], scene.polygon("room 1").bounds[2:], (60, 2))
-    values = importance(position, rng.uniform(0, 2 * np.pi, 60))
+    values = importance_at(importance, position, rng.uniform(0, 2 * np.pi, 60))
     assert (values >= 0).all()
     assert values.max() <= importance.bound + 1e-9
     assert importance.bound <= 1 + 1e-9
@@ -192,9 +193,11 @@ def test_no_pose_is_worth_more_than_the_bound(pose, footprint):
 def test_importance_falls_off_with_distance_and_with_turn():
     importance = importance_of(scene_of(BEDROOM), BED_POSE, BED)
     steps = np.linspace(0, importance.width, 6)
-    away = importance(np.array(BED_POSE.position) + np.outer(steps, (0.6, 0.8)), np.full(6, BED_POSE.angle))
+    away = importance_at(
+        importance, np.array(BED_POSE.position) + np.outer(steps, (0.6, 0.8)), np.full(6, BED_POSE.angle)
+    )
     assert (np.diff(away) < 0).all()
-    turned = importance(np.tile(BED_POSE.position, (6, 1)), BED_POSE.angle + np.linspace(0, 0.3, 6))
+    turned = importance_at(importance, np.tile(BED_POSE.position, (6, 1)), BED_POSE.angle + np.linspace(0, 0.3, 6))
     assert (np.diff(turned) < 0).all()
 
 
@@ -202,7 +205,7 @@ def test_a_place_on_the_other_side_of_a_boundary_is_no_answer():
     table = Polygon(rectangle(2, 2, (2, 2)), "table", "t", parent="room 0")
     scene = Scene([Polygon(rectangle(6, 6), "room", "room 0"), table])
     importance = importance_of(scene, Pose((3, 1.5)), relations=("boundary distance",), relation_weights={"room": 0})
-    beside, within = importance(np.array([(3, 1.5), (3, 2.5)]), np.zeros(2))
+    beside, within = importance_at(importance, np.array([(3, 1.5), (3, 2.5)]), np.zeros(2))
     assert beside == pytest.approx(1)
     assert within == 0
 
@@ -216,9 +219,9 @@ def test_the_shares_of_the_relations_add_up_to_the_importance(footprint, scale):
     rng = np.random.default_rng(0)
     for position in centre + rng.normal(0, 0.1, (5, 2)):
         angle = BED_POSE.angle + 0.4 + rng.normal(0, 0.05)
-        shares = importance.explain(position, angle)
+        shares = explain(importance, position, angle)
         total = sum(s.weight for s in shares)
-        assert total == pytest.approx(float(importance(position[None], np.array([angle]))[0]), abs=1e-9)
+        assert total == pytest.approx(float(importance_at(importance, position[None], np.array([angle]))[0]), abs=1e-9)
         assert 0 < total < 1 + 1e-9
         assert [s.weight for s in shares] == sorted((s.weight for s in shares), reverse=True)
         assert {s.source.partition(" ")[0] for s in shares} == {"room"}
@@ -285,13 +288,14 @@ def test_refinement_leads_back_to_the_example(footprint):
     assert value[best] == pytest.approx(1, abs=1e-4)
     assert position[best] == pytest.approx(np.array(BED_POSE.position), abs=1e-3 * np.sqrt(20))
     assert angle[best] == pytest.approx(BED_POSE.angle, abs=1e-3)
-    assert value == pytest.approx(importance(position, angle))
+    assert value == pytest.approx(importance_at(importance, position, angle))
 
 
 @pytest.mark.parametrize("share", [0.0, 0.3])
 def test_of_a_footprint_only_segments_and_what_polygons_are_to_its_centre_ask_for_directions(share):
     importance = importance_of(scene_of(BEDROOM), BED_POSE, BED)
-    for rows in Batch([importance], share).rows(np.zeros(2, dtype=np.intp)):
+    batch = Batch([importance]).strongest(share)
+    for rows in batch.rows(np.zeros(2, dtype=np.intp)):
         sample = np.tile(importance.answers[rows.element].strongest(share).sample, 2)
         expected = {ElementType.SEGMENT: sample >= 0, ElementType.POLYGON: sample == 0}.get(rows.element, sample < 0)
         assert np.array_equal(rows.directed, expected)
@@ -345,6 +349,6 @@ def test_importances_side_by_side_are_what_they_are_alone():
     room = np.array([rooms.index(several[k].target) for k in which])
     position, angle = rng.uniform(low[room], high[room]), rng.uniform(0, 2 * np.pi, 60)
     together = Batch(several).importance(which, position, angle)
-    alone = [several[k](p[None], a[None])[0] for k, p, a in zip(which, position, angle, strict=True)]
+    alone = [importance_at(several[k], p[None], a[None])[0] for k, p, a in zip(which, position, angle, strict=True)]
     assert together == pytest.approx(np.array(alone), abs=1e-12)
     assert np.ptp(together) > 0.1

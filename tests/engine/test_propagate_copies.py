@@ -186,7 +186,7 @@ def test_disjoint_keeps_what_can_be_placed_together():
 
 def test_thinning_results_computes_nothing_again(monkeypatch):
     results = propagate_pose(scene_of(BEDROOM, ELSEWHERE), BED_POSE, BED)
-    from geoanalogy.poses.batch import Rows
+    from geoanalogy.poses.rows import Rows
 
     def never(*_arguments, **_options):
         raise AssertionError("computed again")
