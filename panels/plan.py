@@ -19,8 +19,9 @@ class GEOANALOGY_PT_plan(SidebarPanel, bpy.types.Panel):
         column = layout.column(align=True)
         column.operator("geoanalogy.import_plan", icon="IMPORT")
         column.operator("geoanalogy.make_polygons", icon="MESH_DATA")
-        row = layout.row(align=True)
-        row.label(text="Label")
+        column = layout.column(align=True)
+        column.label(text="Label")
+        row = column.row(align=True)
         row.operator("geoanalogy.set_label", text="Selected").target = "OBJECTS"
         row.operator("geoanalogy.set_label", text="Collection").target = "COLLECTION"
         row.operator("geoanalogy.label_faces", text="Faces")

@@ -233,7 +233,7 @@ def test_trees_of_the_same_names_cannot_grow_onto_each_other(tmp_path):
             "nothing there has the label 'castle'; there are base, flat roof, house, parcel, wall",
         ),
         ("combine", {"label": "castle"}, "nothing there has the label 'castle'"),
-        ("combine", {"label": "house"}, "no solid with the label 'house' meets its own surface"),
+        ("combine", {"label": "house"}, "what has the label 'house' stands on nothing that an operation has made"),
         ("combine", {"label": "house", "target": "siblings"}, "no solid with the label 'house' meets others"),
         ("select_elements", {"label": "castle"}, "nothing there has the label 'castle'"),
         ("select_elements", {"label": "house", "weights": "1, x"}, "the weights '1, x' are no numbers"),

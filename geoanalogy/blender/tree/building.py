@@ -157,6 +157,12 @@ def _nothing(operation: Extrusion | Boolean | Selection, layouts: Sequence[Layou
     label = operation.label
     labels = {e.label for layout in layouts for e in layout.visible}
     if label in labels and isinstance(operation, Boolean):
+        solids = [e for layout in layouts for e in layout.visible if e.label == label and e.solid is not None]
+        if operation.target == "surface" and solids and not any(e.owner for e in solids):
+            return (
+                f"what has the label {label!r} stands on nothing that an operation has made, and nothing else can be "
+                "cut or grown; label an outline, extrude it, and place on its faces"
+            )
         others = "its own surface" if operation.target == "surface" else "others on its surface"
         return f"no solid with the label {label!r} meets {others}; extrude it first, or choose the other target"
     if label in labels and isinstance(operation, Extrusion):
