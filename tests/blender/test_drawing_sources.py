@@ -300,3 +300,19 @@ def test_images_are_undone_redone_and_laid_in_layers(tmp_path):
     assert heights() == both
     bpy.ops.geoanalogy.replay(EXEC, True)
     assert heights() == both
+
+
+def test_queries_and_regions_are_seen_as_coloured_lines():
+    node = leaves_found()
+    query = node["query_object"]
+    size = bridge("regions.drawings").read_drawn_lines(bpy.context).size
+    for item in (query, *results()):
+        (material,) = item.data.materials
+        assert 0.0 < item.data.bevel_depth < 0.005 * size
+        assert (material.diffuse_color[1] > material.diffuse_color[0]) == (item == query)
+        assert item.hide_render and item.show_in_front
+    assert len({item.data.materials[0] for item in results()}) == 1
+    before = len(bpy.data.materials)
+    draw_query(name="again")
+    find()
+    assert len(bpy.data.materials) == before

@@ -23,8 +23,11 @@ QUERIES = "Queries"
 #: Distance between the ends of a line, as a share of its length, below which it is a ring: a lasso is rarely closed.
 NEARLY_RING = 0.02
 
-#: Colours of queries and of what is found, in views that show the colours of objects.
+#: Colours of queries and of what is found.
 QUERY_COLOUR, TARGET_COLOUR = (0.1, 0.6, 0.2, 1.0), (0.85, 0.15, 0.1, 1.0)
+
+#: Radius of their lines, in sizes of the drawing: they lie among lines that are black, as all wires are.
+MARKED = 0.0012
 
 #: Corners of a quarter circle in the outline of a brush.
 BRUSH_CORNERS = 6
@@ -122,6 +125,7 @@ def add_query(
     ring = np.vstack([flat, flat[:1]]) if closed and np.any(flat[0] != flat[-1]) else flat
     middle = ring.mean(axis=0)
     curve = line_curve("query", [np.column_stack([ring - middle, np.zeros(len(ring))])])
+    mark(curve, QUERY_COLOUR, MARKED * drawn.size)
     item = bpy.data.objects.new(name.strip() or "query", curve)
     frame = drawn.plane.matrix.copy()
     frame[:3, 3] = drawn.plane.to_world([(*middle, 0.0)])[0]
@@ -185,6 +189,31 @@ def choose_query(context: bpy.types.Context, item: bpy.types.Object, closed: boo
     item.show_in_front = True
     item.color = QUERY_COLOUR
     context.scene.geoanalogy.query = item
+
+
+def mark(curve: bpy.types.Curve, colour: tuple[float, float, float, float], radius: float) -> None:
+    """Let a curve be seen as a coloured line.
+
+    Parameters
+    ----------
+    curve : bpy.types.Curve
+    colour : (r, g, b, a)
+    radius : float
+        Of the line, scene units.
+    """
+    curve.bevel_depth = radius
+    curve.bevel_resolution = 0
+    name = "Query" if colour == QUERY_COLOUR else "Similar Region"
+    known = next((m for m in bpy.data.materials if m.get(names.QUERY) == name), None)
+    if known is None:
+        known = bpy.data.materials.new(name)
+        known[names.QUERY] = name
+        known.diffuse_color = colour
+        if known.node_tree is None:  # Blender before 5.0
+            known.use_nodes = True
+        surface = next(node for node in known.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+        surface.inputs["Base Color"].default_value = colour
+    curve.materials.append(known)
 
 
 def brushed(strokes: Sequence[Array], radius: float) -> Array:

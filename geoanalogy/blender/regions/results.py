@@ -18,7 +18,7 @@ from ..tree.store import engine_node
 from ..writing.instances import collection_of, ensure_results_collection, results_in
 from .contents import Places, carried, points_of
 from .drawings import line_curve
-from .queries import TARGET_COLOUR
+from .queries import MARKED, TARGET_COLOUR, mark
 
 Array = NDArray[np.float64]
 
@@ -334,7 +334,7 @@ def _made(
     """The objects of one target."""
     name = _name(node, rank)
     if not contents:
-        return [_outline(name, target, plane)]
+        return [_outline(name, target, plane, size)]
     # The contents lie where the query is.
     source = Plane.of_matrix(np.reshape(node[names.FRAME].to_list(), (4, 4)))
     found, start = [], 0
@@ -347,9 +347,11 @@ def _made(
     return found
 
 
-def _outline(name: str, target: StoredTarget, plane: Plane) -> bpy.types.Object:
+def _outline(name: str, target: StoredTarget, plane: Plane, size: float) -> bpy.types.Object:
     ring = target.outline - target.centre
-    item = bpy.data.objects.new(name, line_curve(name, [np.column_stack([ring, np.zeros(len(ring))])]))
+    curve = line_curve(name, [np.column_stack([ring, np.zeros(len(ring))])])
+    mark(curve, TARGET_COLOUR, MARKED * size)
+    item = bpy.data.objects.new(name, curve)
     frame = plane.matrix.copy()
     frame[:3, 3] = plane.to_world([(*target.centre, 0.0)])[0]
     item.matrix_basis = Matrix(frame.tolist())
