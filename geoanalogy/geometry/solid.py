@@ -21,6 +21,9 @@ from .surface import Surface
 
 Array = NDArray[np.float64]
 
+#: An outline and its holes.
+Rings = tuple[tuple[tuple[float, float], ...], ...]
+
 
 @dataclass(frozen=True)
 class Face:
@@ -34,15 +37,15 @@ class Face:
         What kind of surface it is; its material has this name, too.
     frame : Frame
         Where it lies, in the solid's coordinates; the normal points outwards.
-    domain : tuple of ((float, float), ...) or None
-        The outline and holes of the surface in the frame's coordinates, where these are kept although openings have
-        been cut; None: what there is of the face.
+    domain : tuple of Rings or None
+        The outline and holes of each connected part of the face in the frame's coordinates, where these are kept
+        although openings have been cut; None: what there is of the face.
     """
 
     name: str
     label: str
     frame: Frame
-    domain: tuple[tuple[tuple[float, float], ...], ...] | None = None
+    domain: tuple[Rings, ...] | None = None
 
     @cached_property
     def plane(self) -> tuple[object, ...]:
@@ -55,7 +58,7 @@ class Face:
     def own_surfaces(self) -> tuple[tuple[str, Frame, Polygon], ...]:
         """`surfaces` of the domain, which stay the same whatever happens to the solid."""
         assert self.domain is not None
-        return self.surfaces([shapely.Polygon(self.domain[0], self.domain[1:])])
+        return self.surfaces([shapely.Polygon(outer, holes) for outer, *holes in self.domain])
 
     def surfaces(self, parts: Iterable[shapely.Polygon]) -> tuple[tuple[str, Frame, Polygon], ...]:
         """The surfaces of the connected parts of the face: names, frames and outlines, in the solid's coordinates.
@@ -92,7 +95,7 @@ class Face:
         """The face seen from behind."""
         if self.domain is None:
             return replace(self, frame=self.frame.flipped)
-        mirrored = tuple(tuple((-u, v) for u, v in ring[::-1]) for ring in self.domain)
+        mirrored = tuple(tuple(tuple((-u, v) for u, v in ring[::-1]) for ring in rings) for rings in self.domain)
         return replace(self, frame=self.frame.flipped, domain=mirrored)
 
 
@@ -276,17 +279,20 @@ class Solid:
         Solid
         """
         parts = self.shapes(face) if self.faces[face].domain is None else []
-        if len(parts) != 1:
+        if not parts:
             return self
-        plain = shapely.simplify(parts[0], SURFACE_GRID)
-        rings = (shapely.get_coordinates(ring)[:-1].tolist() for ring in (plain.exterior, *plain.interiors))
-        kept = replace(self.faces[face], domain=tuple(tuple((u, v) for u, v in ring) for ring in rings))
+        kept = replace(self.faces[face], domain=tuple(_rings(shapely.simplify(part, SURFACE_GRID)) for part in parts))
         return replace(self, faces=(*self.faces[:face], kept, *self.faces[face + 1 :]))
 
     def renamed(self, prefix: str) -> "Solid":
         """The solid with a prefix before the names of its faces."""
         faces = (Face(f"{prefix}:{face.name}", face.label, face.frame, face.domain) for face in self.faces)
         return Solid(self.vertices, self.triangles, self.face, tuple(faces))
+
+
+def _rings(shape: shapely.Polygon) -> Rings:
+    rings = (shapely.get_coordinates(ring)[:-1].tolist() for ring in (shape.exterior, *shape.interiors))
+    return tuple(tuple((u, v) for u, v in ring) for ring in rings)
 
 
 def _from_least(ring: Array) -> Array:

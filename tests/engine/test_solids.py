@@ -314,6 +314,19 @@ def test_a_surface_keeps_its_outline_when_openings_are_cut():
     assert kept.volume == house.volume
 
 
+def test_all_parts_of_a_divided_surface_keep_their_outlines():
+    house = box()
+    front = street(house)
+    groove, where = window(front.frame, 4.0, -1.0, 1.0, 5.0)
+    divided = combined(house, [(groove.renamed("groove"), where)], "subtract", front.frame)
+    face = divided.by_name["side 0"]
+    openings = [(pane.renamed("window"), at) for pane, at in (window(front.frame, x, 1.0) for x in (1.0, 7.0))]
+    for solid, missing in ((divided, 1.2), (divided.with_domain(face), 0.0)):
+        cut, others = with_openings(solid, face, openings)
+        areas = {s.id: s.polygon.area for s in surfaces(cut) if s.id.startswith("e:side 0")}
+        assert areas == pytest.approx({"e:side 0": 15 - missing, "e:side 0#2": 12 - missing}) and others == []
+
+
 @given(st.lists(st.tuples(*(st.integers(0, 18), st.integers(0, 5))), min_size=1, max_size=8, unique=True))
 @settings(max_examples=25, deadline=None)
 def test_openings_and_booleans_agree(places):
