@@ -1,5 +1,6 @@
 """Tiles built on a Dask cluster. Dask is asked for only here."""
 
+import hashlib
 import importlib
 import time
 from collections.abc import Generator, Iterator, Sequence
@@ -54,16 +55,17 @@ def build_there(job: str, work: Sequence[Work], address: str) -> Generator[tuple
             f"no Dask scheduler answers at {address} ({error}); start one, or give another address"
         ) from None
     try:
-        yield from _futures(client, job, work, remote.build)
+        yield from _futures(client, job, work, remote)
     finally:
         client.close()
         pickles.unregister_pickle_by_value(remote)
 
 
-def _futures(client: Any, job: str, work: Sequence[Work], build: Any) -> Iterator[Any]:
-    everywhere = client.scatter(job, broadcast=True, hash=True) if client.nthreads() else job
+def _futures(client: Any, job: str, work: Sequence[Work], remote: Any) -> Iterator[Any]:
+    # What workers share is a result, not data: whichever of them is lost, the scheduler has it made again.
+    shared = client.submit(remote.shared, job, key=f"geoanalogy-{hashlib.sha256(job.encode()).hexdigest()[:32]}")
     futures = {
-        client.submit(build, everywhere, one.scene, digest(), key=f"geoanalogy-{one.key}", retries=1): one.key
+        client.submit(remote.build, shared, one.scene, digest(), key=f"geoanalogy-{one.key}", retries=1): one.key
         for one in work
     }
     try:
@@ -74,13 +76,16 @@ def _futures(client: Any, job: str, work: Sequence[Work], build: Any) -> Iterato
                 time.sleep(PATIENCE)
                 yield None
             for future in sorted(done, key=lambda f: futures[f]):
+                if future.status in ("pending", "lost"):
+                    continue  # the worker that had its result has been lost meanwhile: another one builds it
                 left.discard(future)
-                if future.status != "finished":
+                gathered = client.gather([future], errors="skip")
+                if not gathered:
                     yield futures[future], f"{type(future.exception()).__name__}: {future.exception()}", b""
                     continue
-                refused, product = future.result()
+                ((refused, product),) = gathered
                 if refused:
                     raise InputError(refused)
                 yield futures[future], "", product
     finally:
-        client.cancel(list(futures))
+        client.cancel([shared, *futures])

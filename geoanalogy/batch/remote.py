@@ -1,6 +1,20 @@
 """What runs on a worker of a cluster: it travels there by value, and knows the engine by the name it has there."""
 
 
+def shared(job: str) -> str:
+    """What all tiles have in common, as a result that the workers hand to each other.
+
+    Parameters
+    ----------
+    job : str
+
+    Returns
+    -------
+    str
+    """
+    return job
+
+
 def build(job: str, scene: str, digest: str) -> tuple[str, bytes]:
     """Build a tile.
 

@@ -12,8 +12,10 @@ import pytest
 from shapes import rectangle
 
 from geoanalogy import InputError, OperationsTree, Polygon, Scene
+from geoanalogy.batch import cluster as dask_cluster
 from geoanalogy.batch import remote
 from geoanalogy.batch.generation import Choices, generate
+from geoanalogy.batch.processes import Work
 from geoanalogy.batch.product import together
 from geoanalogy.operations.extrusion import Extrusion
 from geoanalogy.operations.node import Node
@@ -40,7 +42,9 @@ def started(module, *arguments):
 @pytest.fixture
 def cluster(tmp_path):
     """The address of a scheduler, and its four workers."""
-    pytest.importorskip("distributed", reason="building on a cluster needs Dask (pip install distributed)")
+    distributed = pytest.importorskip(
+        "distributed", reason="building on a cluster needs Dask (pip install distributed)"
+    )
     crew = []
     file = tmp_path / "scheduler.json"
     try:
@@ -56,7 +60,10 @@ def cluster(tmp_path):
         until = time.monotonic() + 60
         while not file.is_file() and time.monotonic() < until:
             time.sleep(0.2)
-        yield json.loads(file.read_text())["address"], crew[1:]
+        address = json.loads(file.read_text())["address"]
+        with distributed.Client(address, set_as_default=False) as client:
+            client.wait_for_workers(4, timeout=120)
+        yield address, crew[1:]
     finally:
         for process in crew:
             process.kill()
@@ -82,6 +89,41 @@ def test_a_cluster_that_loses_a_worker_builds_the_same(cluster, tmp_path):
     assert sorted(p for facts in job.facts.values() for p in facts["parcels"]) == sorted(
         str(p.id) for p in SCENE.polygons
     )
+
+
+class Lost:
+    """What a client says of a tile whose worker is killed after its first and before its second look at it."""
+
+    def __init__(self):
+        self.looks = 0
+
+    def done(self):
+        self.looks += 1
+        return self.looks != 2
+
+    @property
+    def status(self):
+        return "lost" if self.looks < 3 else "finished"
+
+
+class Client:
+    def __init__(self, future):
+        self.future = future
+
+    def submit(self, function, *_, **__):
+        return self.future if function is remote.build else object()
+
+    def gather(self, futures, errors):
+        assert [f.status for f in futures] == ["finished"] and errors == "skip"
+        return [("", b"product")]
+
+    def cancel(self, futures):
+        assert self.future in futures
+
+
+def test_a_result_that_is_lost_with_its_worker_is_waited_for():
+    answers = [a for a in dask_cluster._futures(Client(Lost()), "job", [Work("key", "scene")], remote) if a is not None]
+    assert answers == [("key", "", b"product")]
 
 
 @pytest.mark.filterwarnings("ignore")
