@@ -10,6 +10,7 @@ from pictures import (
     INNER,
     PLACES,
     RING,
+    UPRIGHT,
     all_leaves,
     bridge,
     curve_drawing,
@@ -316,3 +317,50 @@ def test_queries_and_regions_are_seen_as_coloured_lines():
     draw_query(name="again")
     find()
     assert len(bpy.data.materials) == before
+
+
+def sketch_of(mode):
+    """A query that is being drawn on an upright drawing, and what it shows of points of the drawing's plane."""
+    stroke_drawing(all_leaves(), UPRIGHT)
+    plane = bridge("regions.drawings").read_drawn_lines(bpy.context).plane
+    sketch = bridge("regions.sketch").QuerySketch(plane, mode)
+    return sketch, lambda points: [np.array(p) for p in in_space(points, UPRIGHT)]
+
+
+def test_the_mouse_is_followed_on_the_plane_of_the_drawing():
+    sketch, place = sketch_of("STROKE")
+    (point,) = place([(1.5, 0.5)])
+    eye = np.array((4.0, -30.0, 8.0))
+    assert sketch.sight(eye, point - eye) == pytest.approx(point)
+    assert sketch.sight(eye, (1.0, 0.0, 0.0)) is None
+
+
+@pytest.mark.parametrize(("mode", "shown"), [("LASSO", 4), ("STROKE", 3)])
+def test_of_a_lasso_and_a_stroke_the_last_drag_counts(mode, shown):
+    sketch, place = sketch_of(mode)
+    for drag in ([(0, 0), (1, 0), (1, 1)], [(5, 5), (6, 5), (6, 6), (6, 6)]):
+        first, *others = place(np.array(drag, float))
+        sketch.press(first)
+        for point in others:
+            sketch.move(point)
+    (line,) = sketch.outlines()
+    assert len(line) == shown and line[:3] == pytest.approx(np.array(place([(5, 5), (6, 5), (6, 6)])))
+    sketch.take_back()
+    assert sketch.outlines() == []
+    sketch.take_back()
+
+
+def test_the_brush_adds_up_and_takes_back():
+    sketch, place = sketch_of("BRUSH")
+    assert sketch.outlines() == []
+    sketch.radius = 0.5
+    for drag in ([(0, 0), (3, 0)], [(0, 0.6), (3, 0.6)], [(0, 5), (3, 5)]):
+        first, second = place(np.array(drag, float))
+        sketch.press(first)
+        sketch.move(second)
+    assert len(sketch.outlines()) == 2
+    sketch.take_back()
+    (ring,) = sketch.outlines()
+    low, high = np.array(place([(-0.5, -0.5), (3.5, 1.1)]))
+    assert ring.min(axis=0) == pytest.approx(np.minimum(low, high), abs=0.05)
+    assert ring.max(axis=0) == pytest.approx(np.maximum(low, high), abs=0.05)

@@ -3,6 +3,7 @@
 import bpy
 import numpy as np
 import pytest
+import shapely
 from conftest import batch_command, run
 from flats import activate, bed, engine, link, propagate, reload, results, rooms
 from pictures import (
@@ -367,6 +368,32 @@ def test_the_brush_makes_a_region_of_all_its_strokes():
     assert np.allclose(low, (-1.7, -1.3), atol=0.05) and np.allclose(high, (2.3, 1.0), atol=0.05)
     assert query["ga_query"] == "region"
     assert find()["count"] == 2
+
+
+def test_a_lasso_that_crosses_itself_where_it_ends_is_untangled():
+    curve_drawing(all_leaves())
+    # It begins inside, and ends a bit beyond its start, outside.
+    turn = np.linspace(0.0, 2.15 * np.pi, 80)
+    size = np.linspace(0.96, 1.04, 80)[:, None]
+    lasso = (0.2, 0.0) + size * np.stack([1.9 * np.cos(turn), 1.5 * np.sin(turn)], 1)
+    draw_query(lasso, name="leaf")
+    points = world_points(bpy.context.scene.geoanalogy.query)[:, :2]
+    assert shapely.polygons(points).is_valid
+    assert shapely.polygons(points).area == pytest.approx(np.pi * 1.9 * 1.5, rel=0.05)
+    assert find()["count"] == 2
+
+
+def test_a_small_dab_beside_the_brushed_region_is_left_out():
+    curve_drawing(all_leaves())
+    points = [(-0.6, 0.0), (0.9, 0.0), (1.1, 0.1), (2.2, 3.0)]
+    strokes = [{"name": "", "co": (*p, 0.0), "first": i in (0, 3)} for i, p in enumerate(points)]
+    bpy.ops.geoanalogy.draw_query(EXEC, True, mode="BRUSH", points=strokes[:3], radius=1.2)
+    alone = world_points(bpy.context.scene.geoanalogy.query)
+    with pytest.raises(RuntimeError, match="the brush has painted 2 regions apart from each other"):
+        bpy.ops.geoanalogy.draw_query(EXEC, True, mode="BRUSH", points=strokes, radius=1.2)
+    dab = [dict(one, co=(one["co"][0] * 20, one["co"][1], 0.0)) for one in strokes[:3]] + strokes[3:]
+    bpy.ops.geoanalogy.draw_query(EXEC, True, mode="BRUSH", points=dab, radius=1.2)
+    assert world_points(bpy.context.scene.geoanalogy.query)[:, 1].max() < alone[:, 1].max() + 0.1
 
 
 def test_a_stroke_along_a_thin_shape():

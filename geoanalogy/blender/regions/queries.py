@@ -29,6 +29,9 @@ QUERY_COLOUR, TARGET_COLOUR = (0.1, 0.6, 0.2, 1.0), (0.85, 0.15, 0.1, 1.0)
 #: Radius of their lines, in sizes of the drawing: they lie among lines that are black, as all wires are.
 MARKED = 0.0012
 
+#: Share of the area of what was drawn that one piece must have for the rest to be slips of the hand.
+MAIN_PIECE = 0.9
+
 #: Corners of a quarter circle in the outline of a brush.
 BRUSH_CORNERS = 6
 
@@ -109,7 +112,7 @@ def add_query(
     Raises
     ------
     InputError
-        Where there are too few points, or some that are not finite; then none is made.
+        Where there are too few points, some that are not finite, or regions apart from each other; then none is made.
     """
     given = [np.asarray(stroke, float).reshape(-1, 3) for stroke in strokes if len(stroke)]
     if not all(np.isfinite(stroke).all() for stroke in given) or not np.isfinite(radius):
@@ -117,11 +120,17 @@ def add_query(
     drawn = read_drawn_lines(context)
     parts = [drawn.plane.to_plane(stroke)[:, :2] for stroke in given]
     if radius > 0.0 and parts:
-        flat, closed = brushed(parts, radius), True
+        pieces, closed = brushed(parts, radius), True
+        flat = pieces[0]
+        if not _is_main(flat, pieces):
+            raise InputError(
+                f"the brush has painted {len(pieces)} regions apart from each other; paint one, in one piece"
+            )
     else:
         flat = parts[0] if len(parts) == 1 else np.zeros((0, 2))
     if len(flat) < (3 if closed else 2) or extent(flat) == 0.0:
         raise InputError("the query has no extent; drag round the region, or along the shape")
+    flat = untangled(flat) if closed else flat
     ring = np.vstack([flat, flat[:1]]) if closed and np.any(flat[0] != flat[-1]) else flat
     middle = ring.mean(axis=0)
     curve = line_curve("query", [np.column_stack([ring - middle, np.zeros(len(ring))])])
@@ -216,8 +225,42 @@ def mark(curve: bpy.types.Curve, colour: tuple[float, float, float, float], radi
     curve.materials.append(known)
 
 
-def brushed(strokes: Sequence[Array], radius: float) -> Array:
-    """The outline of what a round brush has passed over.
+def untangled(ring: Array) -> Array:
+    """A ring without the loops that a hasty hand leaves where a lasso begins and ends.
+
+    Parameters
+    ----------
+    ring : ndarray of shape (n, 2)
+
+    Returns
+    -------
+    ndarray of shape (m, 2)
+        The ring itself where it does not cross itself, and where no piece of it is by far the largest.
+    """
+    if shapely.is_valid(shapely.polygons(ring)):
+        return ring
+    crossed = shapely.union_all(shapely.linestrings(np.vstack([ring, ring[:1]])))
+    faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(crossed)))
+    # A face that the lasso goes round twice belongs to the region as well.
+    inside = [face for face in faces if _turns(ring, shapely.get_coordinates(face.representative_point())[0])]
+    pieces = [shapely.get_coordinates(p.exterior)[:-1] for p in shapely.get_parts(shapely.union_all(inside))]
+    pieces = sorted(pieces, key=lambda piece: -shapely.polygons(piece).area)
+    return pieces[0] if pieces and _is_main(pieces[0], pieces) else ring
+
+
+def _turns(ring: Array, point: Array) -> int:
+    """How often a ring goes round a point."""
+    away = (ring - point) @ (1.0, 1.0j)
+    return round(float(np.angle(np.roll(away, -1) / away).sum()) / (2.0 * np.pi))
+
+
+def _is_main(piece: Array, pieces: Sequence[Array]) -> bool:
+    """Whether the others are so small that they were not meant."""
+    return shapely.polygons(piece).area >= MAIN_PIECE * sum(shapely.polygons(one).area for one in pieces)
+
+
+def brushed(strokes: Sequence[Array], radius: float) -> list[Array]:
+    """The outlines of what a round brush has passed over.
 
     Parameters
     ----------
@@ -226,10 +269,11 @@ def brushed(strokes: Sequence[Array], radius: float) -> Array:
 
     Returns
     -------
-    ndarray of shape (m, 2)
-        Of the largest part, without holes; the last point is not repeated.
+    list of ndarray of shape (m, 2)
+        Of every part, the largest first, without holes; the last point is not repeated.
     """
     paths = [shapely.linestrings(stroke) if len(stroke) > 1 else shapely.points(stroke[0]) for stroke in strokes]
     swept = shapely.union_all([path.buffer(radius, quad_segs=BRUSH_CORNERS) for path in paths])
-    outline = shapely.get_exterior_ring(max(shapely.get_parts(swept), key=lambda part: part.area))
-    return shapely.get_coordinates(outline.simplify(0.05 * radius))[:-1]
+    outlines = [shapely.polygons(shapely.get_exterior_ring(part)) for part in shapely.get_parts(swept)]
+    largest_first = sorted(outlines, key=lambda outline: -outline.area)
+    return [shapely.get_coordinates(outline.exterior.simplify(0.05 * radius))[:-1] for outline in largest_first]

@@ -89,8 +89,8 @@ class QuerySketch:
         flat = [self.plane.to_plane(np.array(points))[:, :2] for points in self.strokes]
         if not flat or self.radius <= 0.0:
             return []
-        ring = brushed(flat, self.radius)
-        return [self.plane.to_world(np.column_stack([np.vstack([ring, ring[:1]]), np.zeros(len(ring) + 1)]))]
+        rings = [np.vstack([ring, ring[:1]]) for ring in brushed(flat, self.radius)]
+        return [self.plane.to_world(np.column_stack([ring, np.zeros(len(ring))])) for ring in rings]
 
     def shapes(self) -> Iterator[Shape]:
         """What is to be drawn of it.
