@@ -1,5 +1,6 @@
 """Features of a polygon's boundary: smooth segments and sharp corners (section 4.3)."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,11 +34,15 @@ class Segment:
     @property
     def length(self) -> float:
         """Arc length in scene units."""
+        if len(self.vertices) == 2:
+            return math.dist(*self.vertices.tolist())
         return float(np.hypot(*np.diff(self.vertices, axis=0).T).sum())
 
     @property
     def curvature(self) -> float:
         """Average absolute curvature: the turns between its edges in radians, divided by its length."""
+        if len(self.vertices) == 2:
+            return 0.0
         steps = np.diff(self.vertices, axis=0)
         angles = np.arctan2(steps[:, 1], steps[:, 0])
         if self.closed:
@@ -63,10 +68,8 @@ class Corner:
     @property
     def opening(self) -> float:
         """Interior angle in radians, between 0 and 2 pi; above pi where the corner is reflex."""
-        turn = np.arctan2(
-            self.before[0] * self.after[1] - self.before[1] * self.after[0], float(np.dot(self.before, self.after))
-        )
-        return float(np.pi - turn)
+        (bx, by), (ax, ay) = self.before.tolist(), self.after.tolist()
+        return math.pi - math.atan2(bx * ay - by * ax, bx * ax + by * ay)
 
     @property
     def bisector(self) -> float:
@@ -101,17 +104,19 @@ def _features(clear: ClearRing) -> tuple[list[Segment], list[Corner]]:
     ring, labels, sharp = clear.points, clear.labels, clear.sharp
     n = len(ring)
     ends = np.flatnonzero(sharp | np.array([labels[i - 1] != labels[i] for i in range(n)]))
-    directions = np.roll(ring, -1, axis=0) - ring
-    lengths = np.hypot(*directions.T)
-    offsets = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
+    around = np.concatenate([ring, ring])
+    directions = around[1 : n + 1] - ring
+    lengths = np.hypot(directions[:, 0], directions[:, 1])
+    offsets = np.cumsum(lengths) - lengths
     directions = directions / lengths[:, None]
     corners = [Corner(ring[i], directions[i - 1], directions[i]) for i in np.flatnonzero(sharp)]
     if not len(ends):
         return [Segment(np.vstack([ring, ring[:1]]), labels[0], closed=True)], corners
     segments = []
-    for start, end in zip(ends, np.append(ends[1:], ends[0] + n), strict=True):
-        vertices = ring[np.arange(start, end + 1) % n]
-        segments.append(Segment(vertices, labels[start], ring_offset=float(offsets[start])))
+    starts = ends.tolist()
+    for start, end in zip(starts, [*starts[1:], starts[0] + n], strict=True):
+        # One may run over the ring's first vertex.
+        segments.append(Segment(around[start : end + 1], labels[start], ring_offset=float(offsets[start])))
     return segments, corners
 
 

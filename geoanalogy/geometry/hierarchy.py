@@ -1,6 +1,7 @@
 """The containment hierarchy of a set of polygons (section 4.8)."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -11,7 +12,62 @@ from ..tolerances import CONTAINED_SHARE, STRADDLING_SHARE
 from .polygon import Polygon
 
 
-def find_parents(polygons: Sequence[Polygon]) -> tuple[NDArray[np.intp], list[list[int]]]:
+@dataclass(frozen=True)
+class Overlaps:
+    """Which polygons without a stated parent intersect larger ones.
+
+    Attributes
+    ----------
+    polygons : int
+        Number of the polygons that were compared.
+    small, large : ndarray of shape (k,), int
+        Indices of the polygons of each pair.
+    share : ndarray of shape (k,)
+        Of the smaller one's area that lies in the larger one.
+    """
+
+    polygons: int
+    small: NDArray[np.intp]
+    large: NDArray[np.intp]
+    share: NDArray[np.float64]
+
+
+def find_overlaps(polygons: Sequence[Polygon], known: Overlaps | None = None) -> Overlaps:
+    """Compare the polygons that state no parent with all that are larger.
+
+    Parameters
+    ----------
+    polygons : sequence of Polygon
+    known : Overlaps, optional
+        Of the first of them: only pairs with another polygon are compared.
+
+    Returns
+    -------
+    Overlaps
+    """
+    n, done = len(polygons), 0 if known is None else known.polygons
+    shapes = np.array([p.shape for p in polygons], dtype=object)
+    free = np.array([i for i, p in enumerate(polygons) if p.parent is None], dtype=np.intp)
+    pairs = [np.zeros((2, 0), dtype=np.intp)]
+    for these, first in ((free[free < done], done), (free[free >= done], 0)):
+        if len(these) and first < n:
+            query, found = shapely.STRtree(shapes[first:]).query(shapes[these], predicate="intersects")
+            pairs.append(np.stack([these[query], found + first]))
+    small, large = np.concatenate(pairs, axis=1)
+    areas = np.array([p.area for p in polygons])
+    # Equal areas: the one that comes first holds the other, so that two copies of a polygon are no circle.
+    candidate = (areas[large] > areas[small]) | ((areas[large] == areas[small]) & (large < small))
+    small, large = small[candidate], large[candidate]
+    share = shapely.area(shapely.intersection(shapes[small], shapes[large])) / areas[small]
+    if known is None:
+        return Overlaps(n, small, large, share)
+    both = ((known.small, small), (known.large, large), (known.share, share))
+    return Overlaps(n, *(np.concatenate(pair) for pair in both))
+
+
+def find_parents(
+    polygons: Sequence[Polygon], overlaps: Overlaps | None = None
+) -> tuple[NDArray[np.intp], list[list[int]]]:
     """The parent of every polygon, and the members of every polygon.
 
     The parent is the one a polygon names, else the smallest larger polygon that holds 95 % of its area. Members are the
@@ -22,6 +78,8 @@ def find_parents(polygons: Sequence[Polygon]) -> tuple[NDArray[np.intp], list[li
     Parameters
     ----------
     polygons : sequence of Polygon
+    overlaps : Overlaps, optional
+        Theirs, where they are known.
 
     Returns
     -------
@@ -39,16 +97,10 @@ def find_parents(polygons: Sequence[Polygon]) -> tuple[NDArray[np.intp], list[li
     parents = _stated_parents(polygons)
     members: list[set[int]] = [set() for _ in range(n)]
     straddling: list[tuple[int, int]] = []
-    free = np.flatnonzero(parents < 0)
-    if len(free) and n > 1:
-        shapes = np.array([p.shape for p in polygons])
+    overlaps = find_overlaps(polygons) if overlaps is None else overlaps
+    small, large, share = overlaps.small, overlaps.large, overlaps.share
+    if len(small):
         areas = np.array([p.area for p in polygons])
-        small, large = shapely.STRtree(shapes).query(shapes[free], predicate="intersects")
-        small = free[small]
-        # Equal areas: the one that comes first holds the other, so that two copies of a polygon are no circle.
-        candidate = (areas[large] > areas[small]) | ((areas[large] == areas[small]) & (large < small))
-        small, large = small[candidate], large[candidate]
-        share = shapely.area(shapely.intersection(shapes[small], shapes[large])) / areas[small]
         holds = share >= CONTAINED_SHARE
         order = np.lexsort((large[holds], areas[large[holds]], small[holds]))
         first, second = small[holds][order], large[holds][order]
@@ -89,6 +141,11 @@ def _stated_parents(polygons: Sequence[Polygon]) -> NDArray[np.intp]:
 
 def _circles(parents: NDArray[np.intp]) -> list[list[int]]:
     """The circles that following the parents runs into, each once."""
+    above = np.append(parents, -1)
+    for _ in range(len(parents).bit_length()):
+        above = above[above]  # twice as far up as before
+    if (above < 0).all():
+        return []
     circles: list[list[int]] = []
     done = parents < 0
     for start in range(len(parents)):

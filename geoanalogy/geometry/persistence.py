@@ -93,9 +93,9 @@ def sharp_vertices(ring: Array) -> Mask:
     >>> bool(sharp_vertices(np.stack([octagon.real, octagon.imag], 1)).all())
     True
     """
-    after = np.roll(ring, -1, axis=0) - ring
-    after = after / np.hypot(*after.T)[:, None]
-    before = np.roll(after, 1, axis=0)
+    after = np.concatenate([ring[1:], ring[:1]]) - ring
+    after = after / np.hypot(after[:, 0], after[:, 1])[:, None]
+    before = np.concatenate([after[-1:], after[:-1]])
     return np.einsum("ij,ij->i", before, after) <= SMOOTH_TURN
 
 

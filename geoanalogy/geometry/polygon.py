@@ -288,7 +288,7 @@ class Polygon:
             off = (angles - mean + np.pi / 4) % (np.pi / 2) - np.pi / 4
             near = np.abs(off) <= width
             if near.any():
-                mean += np.average(off[near], weights=lengths[near])
+                mean += (off[near] @ lengths[near]) / lengths[near].sum()
         return float((mean + np.pi / 4) % (np.pi / 2) - np.pi / 4)
 
     def to_dict(self) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 import copy
 import itertools
+import operator
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 from typing import Any
@@ -11,7 +12,7 @@ import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError
-from .hierarchy import find_parents
+from .hierarchy import Overlaps, find_overlaps, find_parents
 from .memory import Memory
 from .polygon import Polygon
 
@@ -65,6 +66,10 @@ class Scene:
         self._index: dict[str, int] = {str(p.id): i for i, p in enumerate(self.polygons)}
         self.offset = (float(offset[0]), float(offset[1]))
         self.memory = Memory() if memory is None else memory
+        #: A scene whose polygons are the first of this one's; and of the latest scene that was grown from this one, the
+        #: polygons and their overlaps: what is placed step by step is compared once.
+        self._grown_from: Scene | None = None
+        self._latest: tuple[tuple[Polygon, ...], Overlaps | None] = ((), None)
 
     def __repr__(self) -> str:
         return f"Scene({len(self.polygons)} polygons)"
@@ -74,7 +79,22 @@ class Scene:
 
     @cached_property
     def _hierarchy(self) -> tuple[NDArray[np.intp], list[list[int]]]:
-        return find_parents(self.polygons)
+        return find_parents(self.polygons, self._overlaps)
+
+    @cached_property
+    def _overlaps(self) -> Overlaps:
+        if self._grown_from is None:
+            return find_overlaps(self.polygons)
+        found = find_overlaps(self.polygons, self._grown_from._overlaps_of_first(self.polygons))
+        self._grown_from._latest = (self.polygons, found)
+        return found
+
+    def _overlaps_of_first(self, polygons: tuple[Polygon, ...]) -> Overlaps:
+        """The overlaps of the first of some polygons that begin with this scene's."""
+        known, overlaps = self._latest
+        if overlaps is None or len(known) > len(polygons) or not all(map(operator.is_, known, polygons)):
+            return self._overlaps
+        return overlaps
 
     @cached_property
     def _tree(self) -> shapely.STRtree:
@@ -203,7 +223,9 @@ class Scene:
         -------
         Scene
         """
-        return Scene([*self.polygons, *polygons], self.offset, self.memory)
+        scene = Scene([*self.polygons, *polygons], self.offset, self.memory)
+        scene._grown_from = self
+        return scene
 
     @cached_property
     def bounds(self) -> NDArray[np.float64]:

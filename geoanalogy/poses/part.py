@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.elements import Elements, ElementType
+from ..relations.elements import Elements, ElementType, first_of
 from ..relations.table import Positional
 from .importance import Importance
 from .query import is_length
@@ -157,22 +157,6 @@ class Part:
             pair_start=_starts(per_pair, entries, pairs),
             feature_start=_starts(per_feature, pairs, features),
         )
-
-
-def first_of(size: Indices) -> Indices:
-    """Where neighbours of given sizes begin.
-
-    Parameters
-    ----------
-    size : ndarray of shape (n,), int
-
-    Returns
-    -------
-    ndarray of shape (n,), int
-    """
-    first: Indices = np.cumsum(size)
-    first -= size
-    return first
 
 
 def _starts(size: Indices, whole: Indices, parts: Indices) -> Indices:

@@ -6,12 +6,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.elements import Elements, ElementType, ranges
+from ..relations.elements import Elements, ElementType, first_of, ranges
 from ..relations.sighting import Sighting
 from ..relations.table import Positional
 from .fields import FAR
 from .kernels import level_set, wrap
-from .part import Part, first_of
+from .part import Part
 from .query import is_length, reference, side, turning
 
 Array = NDArray[np.float64]

@@ -13,7 +13,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.features import features_by_ring
+from ..geometry.features import Corner, Segment, features_by_ring
 from ..geometry.polygon import Polygon
 
 Array = NDArray[np.float64]
@@ -118,40 +118,42 @@ class Elements:
 
     @classmethod
     def _extracted(cls, polygons: tuple[Polygon, ...], frame: float) -> "Elements":
-        starts, vectors, turns, offsets, ring_offsets, ring_lengths = [], [], [], [], [], []
-        edge_polygon: list[int] = []
-        edge_segment: list[int] = []
-        lengths: list[float] = []
-        segment_polygon, curvatures, closed, labels = [], [], [], []
-        vertices, before, opening, corner_polygon = [], [], [], []
+        starts: list[Array] = []
+        vectors: list[Array] = []
+        turns: list[Array] = []
+        per_segment: list[int] = []
+        per_ring: list[int] = []
+        segments: list[Segment] = []
+        corners: list[Corner] = []
+        segment_polygon: list[int] = []
+        corner_polygon: list[int] = []
         for i, polygon in enumerate(polygons):
-            for segments, corners in features_by_ring(polygon):
-                ring_length = sum(s.length for s in segments)
-                first_edge = len(edge_polygon)
-                for s in segments:
-                    steps = np.diff(s.vertices, axis=0)
-                    arc = np.cumsum(np.hypot(*steps.T))
+            for ring_segments, ring_corners in features_by_ring(polygon):
+                first = len(vectors)
+                for s in ring_segments:
                     starts.append(s.vertices[:-1])
-                    vectors.append(steps)
-                    offsets.append(np.concatenate([[0.0], arc[:-1]]))
-                    # A segment may run over the ring's first vertex; there the count starts again.
-                    ring_offsets.append((s.ring_offset + offsets[-1]) % ring_length)
-                    edge_polygon += [i] * len(steps)
-                    edge_segment += [len(lengths)] * len(steps)
-                    segment_polygon.append(i)
-                    lengths.append(arc[-1])
-                    curvatures.append(s.curvature)
-                    closed.append(s.closed)
-                    labels.append(s.label)
-                ring_lengths.append(np.full(len(edge_polygon) - first_edge, ring_length))
-                turns.append(_turns(np.concatenate(vectors[-len(segments) :])))
-                for c in corners:
-                    vertices.append(c.vertex)
-                    before.append(np.arctan2(-c.before[1], -c.before[0]))
-                    opening.append(c.opening)
-                    corner_polygon.append(i)
+                    vectors.append(s.vertices[1:] - s.vertices[:-1])
+                    per_segment.append(len(s.vertices) - 1)
+                turns.append(_turns(np.concatenate(vectors[first:])))
+                per_ring.append(len(turns[-1]))
+                segments += ring_segments
+                corners += ring_corners
+                segment_polygon += [i] * len(ring_segments)
+                corner_polygon += [i] * len(ring_corners)
         edge_vector = np.concatenate(vectors) if vectors else np.zeros((0, 2))
-        edge_length = np.hypot(*edge_vector.T)
+        edge_length = np.hypot(edge_vector[:, 0], edge_vector[:, 1])
+        edge_segment = np.repeat(np.arange(len(segments)), per_segment)
+        first_edge = first_of(np.array(per_segment, dtype=np.intp))
+        segment_length = np.add.reduceat(edge_length, first_edge) if segments else np.zeros(0)
+        first_of_ring = first_of(np.array(per_ring, dtype=np.intp))
+        ring_length = np.repeat(np.add.reduceat(edge_length, first_of_ring), per_ring) if segments else np.zeros(0)
+        arc = np.cumsum(edge_length) - edge_length
+        offset = arc - arc[first_edge][edge_segment]
+        # A segment may run over the ring's first vertex; there the count starts again.
+        ring_offset = (
+            np.array([s.ring_offset for s in segments], dtype=np.float64)[edge_segment] + offset
+        ) % ring_length
+        before = np.array([c.before for c in corners]).reshape(-1, 2)
         return cls(
             polygons=polygons,
             frame=frame,
@@ -160,23 +162,23 @@ class Elements:
             edge_direction=(edge_vector[:, 0] + 1j * edge_vector[:, 1]) / edge_length,
             edge_heading=np.arctan2(edge_vector[:, 1], edge_vector[:, 0]),
             edge_length=edge_length,
-            edge_offset=np.concatenate(offsets) if offsets else np.zeros(0),
-            edge_ring_offset=np.concatenate(ring_offsets) if ring_offsets else np.zeros(0),
-            edge_ring_length=np.concatenate(ring_lengths) if ring_lengths else np.zeros(0),
+            edge_offset=offset,
+            edge_ring_offset=ring_offset,
+            edge_ring_length=ring_length,
             edge_turns=np.concatenate(turns) if turns else np.zeros((0, 2)),
-            edge_polygon=np.array(edge_polygon, dtype=np.intp),
-            edge_segment=np.array(edge_segment, dtype=np.intp),
+            edge_polygon=np.array(segment_polygon, dtype=np.intp)[edge_segment],
+            edge_segment=edge_segment,
             segment_polygon=np.array(segment_polygon, dtype=np.intp),
-            segment_length=np.array(lengths),
-            segment_curvature=np.array(curvatures),
-            segment_closed=np.array(closed, dtype=bool),
-            segment_label=tuple(labels),
+            segment_length=segment_length,
+            segment_curvature=np.array([s.curvature for s in segments]),
+            segment_closed=np.array([s.closed for s in segments], dtype=bool),
+            segment_label=tuple(s.label for s in segments),
             polygon_centroid=np.array([p.centroid for p in polygons]).reshape(-1, 2),
             polygon_orientation=np.array([p.main_orientation for p in polygons]),
             corner_polygon=np.array(corner_polygon, dtype=np.intp),
-            corner_vertex=np.array(vertices, dtype=np.float64).reshape(-1, 2),
-            corner_before=np.array(before),
-            corner_opening=np.array(opening),
+            corner_vertex=np.array([c.vertex for c in corners]).reshape(-1, 2),
+            corner_before=np.arctan2(-before[:, 1], -before[:, 0]),
+            corner_opening=np.array([c.opening for c in corners]),
         )
 
     @classmethod
@@ -330,6 +332,27 @@ def _nothing() -> Elements:
     return Elements.of(())
 
 
+def first_of(size: Indices) -> Indices:
+    """Where neighbours of given sizes begin.
+
+    Parameters
+    ----------
+    size : ndarray of shape (n,), int
+
+    Returns
+    -------
+    ndarray of shape (n,), int
+
+    Examples
+    --------
+    >>> first_of(np.array([2, 0, 3])).tolist()
+    [0, 2, 2]
+    """
+    first: Indices = np.cumsum(size)
+    first -= size
+    return first
+
+
 def ranges(start: Indices, count: Indices) -> Indices:
     """Runs of whole numbers, one after another.
 
@@ -347,9 +370,8 @@ def ranges(start: Indices, count: Indices) -> Indices:
     >>> ranges(np.array([5, 0, 8]), np.array([2, 0, 3])).tolist()
     [5, 6, 8, 9, 10]
     """
-    before = np.cumsum(count) - count
     runs: Indices = np.arange(count.sum())
-    runs += np.repeat(start - before, count)
+    runs += np.repeat(start - first_of(count), count)
     return runs
 
 
@@ -376,7 +398,7 @@ def run_starts(values: Indices) -> Indices:
 
 def _turns(steps: Array) -> Array:
     """Turns before and after each edge of a ring, shape (n, 2), from the ways along its edges."""
-    following = np.roll(steps, -1, axis=0)
+    following = np.concatenate([steps[1:], steps[:1]])
     cross = steps[:, 0] * following[:, 1] - steps[:, 1] * following[:, 0]
     after = np.arctan2(cross, np.einsum("ij,ij->i", steps, following))
-    return np.stack([np.roll(after, 1), after], axis=1)
+    return np.stack([np.concatenate([after[-1:], after[:-1]]), after], axis=1)
