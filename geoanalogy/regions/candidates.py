@@ -15,7 +15,7 @@ from ..progress import Stepper, within
 from .alignment import Alignment, align
 from .chains import Chains, chain
 from .correspondences import Correspondences, aligned, described
-from .fitting import Fitter
+from .fitting import Fitter, distinct
 from .groups import laid_over
 from .linkage import branched, clusters, similarities
 from .options import RegionOptions
@@ -27,9 +27,9 @@ from .transformation import Nodes
 MOST_ALIGNED, MOST_CHAINED, MOST_CLUSTERS = 60, 60, 40
 #: Candidates of chains, alignments, sets and groups that are kept as the best of their kind: of each place, and in all.
 #: What a part was cut from brings fewer lines onto lines than what is wrong, but its chain is as good.
-QUOTAS = ((4, 14), (3, 10), (1, 4), (2, 6))
+QUOTAS = ((8, 28), (6, 20), (2, 8), (2, 6))
 #: Candidates of each place, of each source, and in all, of which those are added that bring most lines onto lines.
-EACH_PLACE, EACH_SOURCE, MOST_STARTS = 6, 32, 44
+EACH_PLACE, EACH_SOURCE, MOST_STARTS = 12, 64, 88
 #: Share of the query points that a set of correspondences must have.
 LEAST_SHARE = 0.15
 #: Candidates whose query points land on average nearer than this, in extents of the query, are one.
@@ -122,7 +122,7 @@ def candidates(
     laid = [
         (np.concatenate([a * nodes.at + b, np.full(len(nodes.at), a)]), flip)
         for a, b, flip in laid_over(
-            fitter.target, fitter.samples.points, region.size, options.mirrored, options.largest_scale
+            fitter.target, fitter.sampling.samples.points, region.size, options.mirrored, options.largest_scale
         )
     ]
     near = SAME * region.size
@@ -154,11 +154,5 @@ def _distinct(starts: list[Start], near: float) -> list[Start]:
     """The first of every group of candidates that map the query points to nearly the same places."""
     if not starts:
         return []
-    m = len(starts[0][0]) // 2
-    at, mirrored = np.array([u[:m] for u, _ in starts]), np.array([flip for _, flip in starts])
-    kept: list[int] = []
-    for k in range(len(starts)):
-        same = mirrored[kept] == mirrored[k]
-        if not (np.abs(at[kept] - at[k]).mean(1)[same] <= near).any():
-            kept.append(k)
-    return [starts[k] for k in kept]
+    unknowns, mirrored = np.array([u for u, _ in starts]), np.array([flip for _, flip in starts])
+    return [starts[i] for i in distinct(unknowns, mirrored, np.full(len(starts), near))]

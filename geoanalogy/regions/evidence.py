@@ -137,7 +137,7 @@ def node_support(fitter: Fitter, found: Floats) -> Floats:
     -------
     Floats
     """
-    gap = np.abs(fitter.nodes.at[:, None] - fitter.samples.points[None])
+    gap = np.abs(fitter.nodes.at[:, None] - fitter.sampling.samples.points[None])
     weight = np.exp(-0.5 * (gap / (2.0 * fitter.nodes.spacing)) ** 2) + 1e-12
     return (weight @ found) / weight.sum(1)
 
@@ -314,7 +314,7 @@ def _course(fitter: Fitter, fit: Fit) -> tuple[float, float]:
     The mean squared difference between the turns of the images of the query's lines and of the lines there, and the
     correlation of the turns themselves, from -1 to 1 as 0 to 1.
     """
-    s, t = fitter.samples, fitter.target
+    s, t = fitter.sampling.samples, fitter.target
     before = np.roll(fit.counterpart, 1)
     both = (s.step > 0.0) & (fit.counterpart >= 0) & (before >= 0)
     both[both] = t.stretch[fit.counterpart[both]] == t.stretch[before[both]]
@@ -322,7 +322,7 @@ def _course(fitter: Fitter, fit: Fit) -> tuple[float, float]:
         return 1.0, 0.5
     sense = -1.0 if fit.function.mirrored else 1.0
     unknowns = np.concatenate([fit.function.position, fit.function.factor])
-    way = np.angle(fitter.ahead @ unknowns - fitter.rows @ unknowns)
+    way = np.angle(fitter.sampling.ahead @ unknowns - fitter.sampling.rows @ unknowns)
     turned = t.heading[fit.counterpart[both]] - t.heading[before[both]]
     turned = (turned + np.pi) % (2.0 * np.pi) - np.pi
     miss = turned - sense * (way - np.roll(way, 1))[both]
@@ -336,7 +336,7 @@ def _course(fitter: Fitter, fit: Fit) -> tuple[float, float]:
 
 def _explained(fitter: Fitter, query: Query, fit: Fit, at: NDArray[np.intp]) -> tuple[float, float]:
     """How much the counterparts are of the lines inside the region's image, and of the lines they lie on."""
-    t, s = fitter.target, fitter.samples
+    t, s = fitter.target, fitter.sampling.samples
     scale = float(np.abs(fit.function.factor).mean())
     step = float(np.median(s.step[s.step > 0.0])) * scale
     image = fit.function(_outline(query))

@@ -20,15 +20,18 @@ from .transformation import Nodes, TransformationFunction, smoothness
 
 #: Samples of the query's lines, and stretches, longest first, that get any.
 SAMPLES, MOST_RUNS = 96, 40
-#: Candidate counterparts of a sample: so many to each side of the nearest point of a line.
+#: Candidate counterparts of each of SAMPLES: so many to each side of the nearest point of a line.
 BAND = 7
 #: Stiffness of the functions, round by round: (strain, bend) weights beside a mean squared distance of 1.
 ROUNDS = ((0.3, 0.3), (0.1, 0.2), (0.03, 0.1), (0.02, 0.1), (0.01, 0.1), (0.01, 0.1))
-#: After so many rounds only so many candidates of each place, and so many in all, are fitted on: those with most
-#: counterparts and evidence.
-FIRST_ROUNDS, FINALISTS, MOST_FINALISTS = 2, 4, 24
+#: After so many rounds only some candidates are fitted on: those with most counterparts and evidence.
+FIRST_ROUNDS = 2
+#: In the rounds before that, one of so many samples is fitted.
+COARSE = 2
 #: Candidates whose images' centres are nearer than this, in extents of the images, are of one place.
 PLACE = 0.35
+#: Functions that take the query points on average nearer than this, in extents of the images, lead to one fit.
+SAME = 0.01
 #: Distance, in extents of the query at the target's scale, at which a counterpart is no evidence any more.
 FAR = 0.05
 
@@ -79,18 +82,44 @@ class Samples:
     turn: Floats
 
     @classmethod
-    def of(cls, contours: Contours, query: Query) -> "Samples":
-        """Spread SAMPLES over the lines of the query by length."""
+    def of(cls, contours: Contours, query: Query, number: int) -> "Samples":
+        """Spread about `number` samples over the lines of the query by length."""
         length = lengths(contours, query.runs)
         parts: list[tuple[Complex, Floats, Floats, Floats]] = []
         for run, own in zip(query.runs[:MOST_RUNS], length, strict=False):
-            count = max(2, round(SAMPLES * own / length.sum()))
+            count = max(2, round(number * own / length.sum()))
             course = Course.along(contours, run, count)
             heading = course.heading
             step = np.full(count, own / (count if run.closed else count - 1))
             step[0] = 0.0
             parts.append((course.points, heading, step, np.diff(heading, prepend=heading[0])))
         return cls(*(np.concatenate(p) for p in zip(*parts, strict=True)))
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """Samples, and where functions take them.
+
+    Attributes
+    ----------
+    samples : Samples
+    rows, ahead : (s, 2m) complex
+        The linear maps from the unknowns of a function to the images of the samples, and of points just ahead of them.
+    band : int
+        Candidate counterparts of a sample: so many to each side of the nearest point of a line.
+    """
+
+    samples: Samples
+    rows: Complex
+    ahead: Complex
+    band: int
+
+    @classmethod
+    def of(cls, contours: Contours, query: Query, nodes: Nodes, coarse: int) -> "Sampling":
+        """The sampling by every `coarse`-th of SAMPLES, whose counterparts are looked for about as far."""
+        samples = Samples.of(contours, query, SAMPLES // coarse)
+        ahead = samples.points + 1e-3 * query.size * np.exp(1j * samples.heading)
+        return cls(samples, nodes.rows(samples.points), nodes.rows(ahead), -(-BAND // coarse))
 
 
 class Target:
@@ -151,13 +180,10 @@ class Fitter:
     """Fits many candidates of one query at once."""
 
     def __init__(self, contours: Contours, query: Query, nodes: Nodes):
-        self.samples = Samples.of(contours, query)
         self.target = Target(contours, query)
         self.nodes, self.size = nodes, query.size
         self.strain, self.bend = smoothness(nodes)
-        self.rows = nodes.rows(self.samples.points)
-        ahead = self.samples.points + 1e-3 * query.size * np.exp(1j * self.samples.heading)
-        self.ahead = nodes.rows(ahead)
+        self.sampling, self.coarse = (Sampling.of(contours, query, nodes, coarse) for coarse in (1, COARSE))
 
     def start(
         self, source: Complex, image: Complex, weight: Floats, stiffness: tuple[float, float] = (0.3, 0.3)
@@ -188,7 +214,7 @@ class Fitter:
         self,
         unknowns: Complex,
         mirrored: NDArray[np.bool_],
-        finalists: int,
+        finalists: tuple[int, int],
         agreeing: Callable[[Complex, NDArray[np.bool_]], Floats],
     ) -> list[Fit]:
         """Refine candidates, and give up those that find few lines.
@@ -198,19 +224,24 @@ class Fitter:
         unknowns : (h, 2m) complex
             Functions to start from.
         mirrored : (h,) bool
-        finalists : int
-            Candidates of each place that are fitted to the end.
+        finalists : (int, int)
+            Candidates that are fitted to the end: of each place, and in all.
         agreeing : callable
             What else speaks for functions, (h,) from 0 to 1: those that are stretched over a gap find the most lines.
         """
+        sampling = self.coarse
         for number, stiffness in enumerate(ROUNDS):
-            _, image, weight, _, _ = self.counterparts(unknowns, mirrored, FITTING)
             if number == FIRST_ROUNDS:
+                _, _, weight, _, _ = self.counterparts(sampling, unknowns, mirrored, FITTING)
                 order = np.argsort(-weight.mean(1) * (0.5 + 0.5 * agreeing(unknowns, mirrored)), kind="stable")
-                best = order[self.apart(unknowns[order], mirrored[order], finalists, MOST_FINALISTS)]
-                unknowns, mirrored, image, weight = unknowns[best], mirrored[best], image[best], weight[best]
-            unknowns = self.solve(self.rows, image, weight + 1e-6, stiffness)
-        at, _, _, distance, tilt = self.counterparts(unknowns, mirrored, MEASURING)
+                near = SAME * self.size * np.abs(unknowns[:, len(self.nodes.at) :]).mean(1)
+                order = order[distinct(unknowns[order], mirrored[order], near[order])]
+                best = order[self.apart(unknowns[order], mirrored[order], *finalists)]
+                unknowns, mirrored = unknowns[best], mirrored[best]
+                sampling = self.sampling
+            _, image, weight, _, _ = self.counterparts(sampling, unknowns, mirrored, FITTING)
+            unknowns = self.solve(sampling.rows, image, weight + 1e-6, stiffness)
+        at, _, _, distance, tilt = self.counterparts(self.sampling, unknowns, mirrored, MEASURING)
         m = len(self.nodes.at)
         return [
             Fit(TransformationFunction(self.nodes, u[:m], u[m:], bool(flip)), a, d, t)
@@ -219,8 +250,8 @@ class Fitter:
 
     def promise(self, unknowns: Complex, mirrored: NDArray[np.bool_]) -> Floats:
         """How many of some samples land near lines that run along their images, (h,): what is worth fitting."""
-        image = unknowns @ self.rows[::3].T
-        way = np.angle(unknowns @ self.ahead[::3].T - image)
+        image = unknowns @ self.sampling.rows[::3].T
+        way = np.angle(unknowns @ self.sampling.ahead[::3].T - image)
         seen = np.where(mirrored[:, None], np.conj(image), image)
         way = np.where(mirrored[:, None], -way, way)
         gap, near = self.target.tree.query(np.stack([seen.real, seen.imag], -1))
@@ -252,12 +283,12 @@ class Fitter:
         return np.sort(np.argsort(turn, kind="stable")[:most])
 
     def counterparts(
-        self, unknowns: Complex, mirrored: NDArray[np.bool_], costs: Costs
+        self, sampling: Sampling, unknowns: Complex, mirrored: NDArray[np.bool_], costs: Costs
     ) -> tuple[NDArray[np.intp], Complex, Floats, Floats, Floats]:
         """Counterparts of the samples on the lines near their images, by Viterbi along the query's lines."""
-        s, target = self.samples, self.target
-        image = unknowns @ self.rows.T
-        way = np.angle(unknowns @ self.ahead.T - image)
+        s, target = sampling.samples, self.target
+        image = unknowns @ sampling.rows.T
+        way = np.angle(unknowns @ sampling.ahead.T - image)
         m = len(self.nodes.at)
         scale = np.abs(unknowns[:, m:]).mean(1)
         unit = np.maximum(scale * self.size, 1e-12)[:, None]
@@ -270,7 +301,7 @@ class Fitter:
         pick = np.argmin(gap + 0.05 * skew, axis=2)
         centre = np.take_along_axis(near, pick[:, :, None], 2)[:, :, 0]
         stride = np.maximum(1, np.round(0.5 * s.step.max() * scale[:, None] / target.spacing[centre])).astype(int)
-        offset = stride[:, :, None] * np.arange(-BAND, BAND + 1)
+        offset = stride[:, :, None] * np.arange(-sampling.band, sampling.band + 1)
         at = target.walk(np.broadcast_to(centre[:, :, None], offset.shape), offset)
         point = target.points[at]
         distance = np.abs(point - seen[:, :, None]) / unit[:, :, None]
@@ -278,7 +309,7 @@ class Fitter:
         tilt = np.abs(np.arcsin(np.clip(np.sin(angle), -1, 1)))
         cost = (distance / FAR) ** 2 + np.sin(angle) ** 2 * 0.5
         cost[at < 0] = np.inf
-        chosen = self._viterbi(cost, at, point, seen, np.sign(np.cos(angle)), scale, mirrored, costs)
+        chosen = self._viterbi(s, cost, at, point, seen, np.sign(np.cos(angle)), scale, mirrored, costs)
         h, k = np.indices(chosen.shape)
         here = at[h, k, chosen]
         away, skewed = distance[h, k, chosen], tilt[h, k, chosen]
@@ -291,6 +322,7 @@ class Fitter:
 
     def _viterbi(
         self,
+        s: Samples,
         cost: Floats,
         at: NDArray[np.intp],
         point: Complex,
@@ -301,7 +333,7 @@ class Fitter:
         costs: Costs,
     ) -> NDArray[np.intp]:
         """Index of the chosen candidate of every sample (h, s); -1: none."""
-        s, target = self.samples, self.target
+        target = self.target
         count, length, width = cost.shape
         single = np.float32
         missing = single(costs.missing)
@@ -352,3 +384,27 @@ class Fitter:
         for i in range(length - 1, 0, -1):
             chosen[:, i - 1] = back[i][rows, chosen[:, i]]
         return np.where(chosen == width, -1, chosen)
+
+
+def distinct(unknowns: Complex, mirrored: NDArray[np.bool_], near: Floats) -> NDArray[np.intp]:
+    """Indices of the first of every group of functions that map the query points to nearly the same places.
+
+    Parameters
+    ----------
+    unknowns : (h, 2m) complex
+    mirrored : (h,) bool
+    near : (h,) float
+        Mean distance from an earlier function up to which one repeats it.
+
+    Returns
+    -------
+    (k,) int
+        Ascending.
+    """
+    at = unknowns[:, : unknowns.shape[1] // 2]
+    kept: list[int] = []
+    for k in range(len(at)):
+        same = mirrored[kept] == mirrored[k]
+        if not (np.abs(at[kept] - at[k]).mean(1)[same] <= near[k]).any():
+            kept.append(k)
+    return np.array(kept, dtype=np.intp)

@@ -228,7 +228,7 @@ def _inside(image: Complex, target: Complex, gap: Floats) -> float:
 
 def _counted(fitter: Fitter, function: TransformationFunction) -> Fit:
     """A function as a fit: each sample's counterpart is the nearest point of a line, whichever way that runs."""
-    image = function(fitter.samples.points)
+    image = function(fitter.sampling.samples.points)
     gap, near = fitter.target.tree.query(np.stack([image.real, image.imag], 1))
     gap = gap / (fitter.size * float(np.abs(function.factor).mean()))
     counterpart: NDArray[np.intp] = np.where(gap < APART, near, -1)

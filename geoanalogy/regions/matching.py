@@ -11,7 +11,7 @@ from ..geometry.drawing import Drawing
 from ..progress import Progress, Stepper, run, within
 from .candidates import candidates
 from .evidence import Evidence, agreement, corners_met, evidence, marked_evidence, node_support, support
-from .fitting import FINALISTS, Fit, Fitter
+from .fitting import Fit, Fitter
 from .marks import laid, of_marks
 from .options import RegionOptions
 from .query import Query
@@ -19,8 +19,8 @@ from .refinement import Refined
 from .standing import least_shown
 from .transformation import Nodes, TransformationFunction
 
-#: Candidates of each place that are fitted to the end where branches may share a place.
-BRANCH_FINALISTS = 16
+#: Candidates that are fitted to the end, of each place and in all: usually, and where branches may share a place.
+FINALISTS, BRANCH_FINALISTS = (4, 24), (32, 40)
 #: Two matches are one target where this share of the samples of the lesser has its counterparts on lines of the better.
 SHARED = 0.5
 #: The same for branches, which share the lines of their trunk.
@@ -257,7 +257,7 @@ def _lines_of(fit: Fit, fitter: Fitter) -> NDArray[np.bool_]:
     target = fitter.target
     at = fit.counterpart[fit.counterpart >= 0]
     scale = np.abs(fit.function.factor).mean()
-    reach = np.ceil(2.0 * fitter.samples.step.max() * scale / target.spacing[at]).astype(int)
+    reach = np.ceil(2.0 * fitter.sampling.samples.step.max() * scale / target.spacing[at]).astype(int)
     out = np.zeros(len(target.points), bool)
     for offset in range(-int(reach.max()), int(reach.max()) + 1):
         beside = target.walk(at, np.where(np.abs(offset) <= reach, offset, 0))
