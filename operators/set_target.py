@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import FloatProperty
 
+from ..geoanalogy.blender.linked import require_editable
 from ..geoanalogy.blender.rectangle_drawing import set_target
 from ..geoanalogy.errors import InputError
 from .edit import Edit, needs_object_mode
@@ -24,6 +25,7 @@ class GEOANALOGY_OT_set_target(Edit, bpy.types.Operator):
         """Write the preference."""
         if not context.selected_objects:
             raise InputError("nothing is selected; select the examples")
+        require_editable(context.selected_objects)
         for item in context.selected_objects:
             set_target(item, round(self.target, 6))
         return f"{len(context.selected_objects)} examples with the preference {self.target:.2f}"

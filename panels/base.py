@@ -18,7 +18,7 @@ class SidebarPanel:
 
 
 #: Width of the sidebar that is not text (icon and margins), and of a letter on average, in pixels at a scale of 1.
-MARGIN, LETTER = 64.0, 5.9
+MARGIN, LETTER = 64.0, 6.4
 
 #: Letters in a line at least, however narrow the sidebar is.
 NARROW = 16

@@ -17,6 +17,7 @@ MODULES = (
     ".properties",
     ".tree.node_tree",
     ".tree.links",
+    ".tree.renaming",
     ".tree.showing",
     ".unfamiliar_faces",
     ".handlers",

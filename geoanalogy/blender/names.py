@@ -57,6 +57,9 @@ RULE, REJECTED, UNFAMILIAR = "rule", "rejected", "unfamiliar"
 #: (none: all).
 BUILD_ON, APPLIED_TO = "build_on", "applied_to"
 
+#: On nodes: their name when that was last looked at; their results carry it.
+CALLED = "called"
+
 #: On nodes: where their input came from when that was last looked at.
 SOURCES = "sources"
 

@@ -11,6 +11,7 @@ from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from . import names
+from .linked import require_editable
 from .reading.footprints import hull_of, outline_of, pose_of
 from .reading.ground import read_grounds
 from .reading.planes import Plane, best_plane
@@ -61,11 +62,12 @@ def set_label(items: Iterable[bpy.types.ID], label: str) -> int:
     Raises
     ------
     InputError
-        Where there are none.
+        Where there are none, or one is linked.
     """
     items = list(items)
     if not items:
         raise InputError("nothing is selected; select the objects to label")
+    require_editable(items)
     for item in items:
         if label.strip():
             item[names.LABEL] = label.strip()
@@ -212,8 +214,9 @@ def take_footprints(context: bpy.types.Context, items: Sequence[bpy.types.Object
     Raises
     ------
     InputError
-        Where one has no extent on the plan, or no faces to take the outline of; then none is changed.
+        Where one has no extent on the plan, no faces to take the outline of, or is linked; then none is changed.
     """
+    require_editable(items)
     context.view_layer.update()
     depsgraph = context.evaluated_depsgraph_get()
     own = [None if kind == "none" else _own_footprint(context, item, kind, depsgraph) for item in items]

@@ -30,6 +30,7 @@ from ...poses.scatter import ScatterModel
 from ...progress import Stepper
 from ...tolerances import CONTAINED_SHARE
 from .. import names
+from ..linked import is_here
 from ..reading.footprints import footprint_of, pose_of
 from .evaluating import Surroundings, incoming_steps
 from .placement_lessons import relearned_placement_steps
@@ -226,7 +227,7 @@ def relearned_steps(every: Sequence[Surroundings], node: bpy.types.Node) -> Step
     around = every[0]
     operation = around.engine.node(node.name).operation
     items = [one.item for one in placed_by(node)]
-    here = all(item is not None and around.scene.objects.get(item.name) == item for item in items)
+    here = all(item is not None and is_here(item, around.scene) for item in items)
     if node.mute or not items or not here or (isinstance(operation, GroupPlacement) and not operation.own):
         return operation
     poses, parent = _learned_from(operation)

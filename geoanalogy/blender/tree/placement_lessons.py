@@ -17,6 +17,7 @@ from ...placements.examples import Example
 from ...placements.options import PlacementOptions
 from ...progress import Stepper, within
 from .. import names
+from ..linked import is_here
 from ..reading.planes import Plane
 from ..reading.rectangles import middle_of, rectangle_of, target_of
 from .evaluating import Surroundings, incoming_steps
@@ -225,7 +226,7 @@ def examples_in(node: bpy.types.Node, scene: bpy.types.Scene) -> list[bpy.types.
         Without those that have been deleted.
     """
     examples = [one.item for one in placed_by(node) if one.target is not None]
-    return [item for item in examples if item is not None and scene.objects.get(item.name) == item]
+    return [item for item in examples if item is not None and is_here(item, scene)]
 
 
 def relearned_placement_steps(every: Sequence[Surroundings], node: bpy.types.Node) -> Stepper[Operation]:

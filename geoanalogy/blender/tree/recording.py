@@ -27,6 +27,7 @@ from ...poses.propagate import PoseModel
 from ...poses.scatter import ScatterModel, ScatterOptions
 from ...progress import Stepper, within
 from .. import names
+from ..linked import is_here
 from ..reading.footprints import pose_of, rest_of
 from ..reading.ground import label_of
 from .editing import chosen_outputs, free_id
@@ -353,7 +354,7 @@ def require_object(context: bpy.types.Context, item: bpy.types.Object | None) ->
     """
     if item is None:
         raise InputError("nothing is selected; select the object to propagate")
-    if context.scene.objects.get(item.name) != item:
+    if not is_here(item, context.scene):
         raise InputError(f"object {item.name!r} is not in the scene {context.scene.name!r}; link it there")
     if names.KEY in item:
         raise InputError(

@@ -6,6 +6,7 @@ import numpy as np
 
 from ...errors import InputError
 from .. import names
+from ..linked import require_editable
 from .shading import material
 
 
@@ -45,7 +46,7 @@ def label_faces(item: bpy.types.Object | None, label: str) -> int:
     Raises
     ------
     InputError
-        Where it is no mesh of the user's own, or none of its faces is selected.
+        Where it is no mesh of the user's own, it is linked, or none of its faces is selected.
     """
     if item is None or item.type != "MESH":
         raise InputError("no mesh is active; click one, and select the faces that are to be surfaces")
@@ -53,6 +54,7 @@ def label_faces(item: bpy.types.Object | None, label: str) -> int:
         raise InputError(
             f"object {item.name!r} is a result of {item[names.NODE]!r} itself, whose faces are surfaces already"
         )
+    require_editable([item.data])
     if item.mode == "EDIT":
         edited = bmesh.from_edit_mesh(item.data)
         chosen = np.array([face.select for face in edited.faces], dtype=bool)

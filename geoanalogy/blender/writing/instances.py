@@ -14,6 +14,7 @@ from ...geometry.surface import GROUND
 from ...operations.element import Element
 from .. import names
 from ..holders import ensure_holder_with, holder_with
+from ..linked import is_here
 from ..reading.footprints import frame_of
 from ..reading.ground import results_collection
 from ..reading.planes import Plane
@@ -106,7 +107,7 @@ def write_results(
     outer = ensure_results_collection(scene)
     holder = ensure_holder_with(outer, names.NODE, node)
     by_mesh = {one.mesh: one for one in placed if one.item is not None}
-    there = {one.mesh for one in by_mesh.values() if scene.objects.get(one.item.name) == one.item}
+    there = {one.mesh for one in by_mesh.values() if is_here(one.item, scene)}
     children = _children_of([one.item for one in by_mesh.values()])
     examples = [one for one in by_mesh.values() if one.target is not None and one.mesh in there]
     shown = [
