@@ -1,14 +1,16 @@
-"""The steps of matching by themselves: alignment, modes, linkage."""
+"""The steps of matching by themselves: alignment, modes, linkage, what is fitted."""
 
 import numpy as np
 import pytest
+import shapely
 from drawn import closed, fish, moved
 
 import geoanalogy as ga
 from geoanalogy.progress import run
 from geoanalogy.regions.alignment import GAIN, align
+from geoanalogy.regions.fitting import Sampling, distinct
 from geoanalogy.regions.linkage import clusters, similarities
-from geoanalogy.regions.query import Run
+from geoanalogy.regions.query import Query, Run
 from geoanalogy.regions.refinement import Refined, modes
 from geoanalogy.regions.transformation import Nodes
 
@@ -81,3 +83,30 @@ def test_linkage_parts_two_smooth_functions_and_leaves_strays_alone():
     found = run(clusters(nodes, refined, similarities(nodes, refined), 5))
     assert [sorted(c.members.tolist()) for c in found] == [list(range(20)), list(range(20, 40))]
     assert found[0].tps == pytest.approx(1.0)
+
+
+def test_functions_that_lead_to_the_same_places_are_one():
+    rng = np.random.default_rng(6)
+    at = rng.normal(size=20) + 1j * rng.normal(size=20)
+    functions = np.array(
+        [np.concatenate([a * at + b, np.full(20, a)]) for a, b in ((1, 0), (1, 0.09), (1, 0.15), (1, 0))]
+    )
+    mirrored = np.array([False, False, False, True])
+    assert distinct(functions, mirrored, np.full(4, 0.1)).tolist() == [0, 2, 3]
+    assert distinct(functions, mirrored, np.array([0.1, 0.05, 0.1, 0.1])).tolist() == [0, 1, 3]
+    assert distinct(functions[:0], mirrored[:0], np.zeros(0)).tolist() == []
+
+
+def test_a_coarse_sampling_has_longer_steps_along_the_same_lines():
+    drawing = ga.Drawing([closed(OUTLINE), moved(closed(OUTLINE), shift=(4.0, 0.0))])
+    ring = shapely.get_coordinates(shapely.box(*(OUTLINE.min(0) - 0.1), *(OUTLINE.max(0) + 0.1)).exterior)[:-1]
+    query = Query.of(drawing, ring, ga.RegionOptions())
+    nodes = Nodes.of(query.points, query.spacing, 1.5)
+    fine, coarse = (Sampling.of(drawing.contours, query, nodes, k) for k in (1, 2))
+    assert len(fine.samples.points) == 2 * len(coarse.samples.points)
+    np.testing.assert_allclose(coarse.samples.step[1:], 2.0 * fine.samples.step[1], rtol=1e-6)
+    line = shapely.LineString(drawing.into_frame(closed(OUTLINE)).view(float).reshape(-1, 2))
+    away = shapely.distance(line, shapely.points(coarse.samples.points.real, coarse.samples.points.imag))
+    assert away.max() < 0.01 * query.size
+    identity = np.concatenate([nodes.at, np.ones(len(nodes.at))])
+    np.testing.assert_allclose(coarse.rows @ identity, coarse.samples.points, atol=1e-9)
