@@ -14,6 +14,7 @@ from ...operations.rectangle_placement import LEAST_SCORE, RectanglePlacement, p
 from ...operations.scatter_placement import ScatterPlacement
 from ...placements.model import PlacementModel
 from ...poses.arrangement import arrangement_of
+from ...poses.explanation import explain as explained_by
 from ...poses.propagate import PoseModel
 from .. import names
 from .refresh import proposed_by
@@ -119,7 +120,7 @@ def _reasons(model: PoseModel, e: Element, scene: Scene) -> tuple[Reason, ...]:
     ]
     position = np.array(e.pose.position)
     shares = max(
-        (i.explain(position, e.pose.angle) for i in fitting), key=lambda s: sum(r.weight for r in s), default=()
+        (explained_by(i, position, e.pose.angle) for i in fitting), key=lambda s: sum(r.weight for r in s), default=()
     )
     sums: dict[str, float] = {}
     for share in shares:
