@@ -4,19 +4,10 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, StringProperty
 
 from ..geoanalogy.blender.tree.building import extrusion_of, label_here, operation_steps
-from ..geoanalogy.blender.tree.node_settings import ROOFS
+from ..geoanalogy.blender.tree.node_settings import FACES, HEIGHT, OVERHANG, PITCH, ROOFS
 from ..geoanalogy.geometry.extrusion import FaceLabels
 from ..geoanalogy.geometry.roof import Roof
 from .edit import LongEdit, needs_object_mode
-
-#: Faces of an extruded solid, as the engine names them, and what they are.
-FACES = {
-    "side": "Sides",
-    "top": "The flat cap",
-    "bottom": "What lies on the surface that is extruded from",
-    "roof": "Faces of the roof",
-    "gable": "Walls under the roof",
-}
 
 
 def _face(part, name):
@@ -36,7 +27,7 @@ class GEOANALOGY_OT_extrude(LongEdit, bpy.types.Operator):
         description="Of what is extruded; empty: that of the active object, else of the active operation",
         options={"SKIP_SAVE"},
     )
-    height: FloatProperty(name="Height", default=3.0, subtype="DISTANCE")
+    height: FloatProperty(name="Height", description=HEIGHT, default=3.0, subtype="DISTANCE")
     factor: FloatVectorProperty(
         name="Random Factor",
         description="Least and greatest multiplier of the height",
@@ -50,8 +41,8 @@ class GEOANALOGY_OT_extrude(LongEdit, bpy.types.Operator):
         options={"SKIP_SAVE"},
     )
     roof: EnumProperty(name="Roof", items=ROOFS, options={"SKIP_SAVE"})
-    pitch: FloatProperty(name="Pitch", default=Roof().pitch, min=0.02, max=1.5, subtype="ANGLE")
-    overhang: FloatProperty(name="Overhang", min=0.0, subtype="DISTANCE", options={"SKIP_SAVE"})
+    pitch: FloatProperty(name="Pitch", description=PITCH, default=Roof().pitch, min=0.02, max=1.5, subtype="ANGLE")
+    overhang: FloatProperty(name="Overhang", description=OVERHANG, min=0.0, subtype="DISTANCE", options={"SKIP_SAVE"})
     walls: FloatProperty(
         name="Walls",
         description="Thickness of the walls of a room that is open above; 0: a full body",

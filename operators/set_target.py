@@ -15,7 +15,9 @@ class GEOANALOGY_OT_set_target(Edit, bpy.types.Operator):
     bl_idname = "geoanalogy.set_target"
     bl_label = "Set Preference"
 
-    target: FloatProperty(name="Preference", min=0.0, max=1.0, default=1.0, subtype="FACTOR")
+    target: FloatProperty(
+        name="Preference", description="1 is wanted, 0 is not wanted", min=0.0, max=1.0, default=1.0, subtype="FACTOR"
+    )
 
     @classmethod
     def poll(cls, context):

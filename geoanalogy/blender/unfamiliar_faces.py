@@ -12,7 +12,14 @@ from .tree.store import tree_of
 UNFAMILIAR, CLICKED = (0.95, 0.7, 0.2, 1.0), (1.0, 0.45, 0.1, 1.0)
 
 
-def _shapes() -> Iterator[Shape]:
+def shapes() -> Iterator[Shape]:
+    """What is to be drawn in the scene that is shown.
+
+    Yields
+    ------
+    Shape
+        Nothing where no placement is active, or its faces are not wanted.
+    """
     settings = bpy.context.scene.geoanalogy
     tree = tree_of(bpy.context.scene)
     if settings.show_unfamiliar and tree is not None:
@@ -27,7 +34,7 @@ _shown: list[Overlay] = []
 def register():
     """Show them, where there is a window."""
     if not bpy.app.background:
-        _shown.append(Overlay(_shapes))
+        _shown.append(Overlay(shapes))
 
 
 def unregister():

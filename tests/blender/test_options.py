@@ -44,3 +44,35 @@ def test_every_option_of_the_engine_can_be_set(module, kind, operators, aliases)
         assert not missing
         mute = [p.identifier for p in properties if not p.description and p.type not in ("ENUM", "POINTER")]
         assert mute == []
+
+
+#: What nobody sees: kinds of files, and what is drawn with the mouse.
+UNSEEN = {"rna_type", "filter_glob", "points", "rectangles"}
+
+
+def tells(row):
+    """Whether a property says what it is: itself, or each of its choices."""
+    return bool(row.description) or (row.type == "ENUM" and all(item.description for item in row.enum_items))
+
+
+def test_operators_and_what_they_show_have_tooltips():
+    for operator in dir(bpy.ops.geoanalogy):
+        kind = getattr(bpy.ops.geoanalogy, operator).get_rna_type()
+        assert kind.name and kind.description and not kind.description.endswith("."), operator
+        mute = [row.identifier for row in kind.properties if row.identifier not in UNSEEN and not tells(row)]
+        assert mute == [], operator
+
+
+def test_names_to_search_for_are_told_apart():
+    found = [getattr(bpy.ops.geoanalogy, operator).get_rna_type().name for operator in dir(bpy.ops.geoanalogy)]
+    assert len(found) > 35 and len(set(found)) == len(found)
+
+
+def test_what_panels_and_nodes_show_has_tooltips():
+    scene = bpy.context.scene.geoanalogy
+    tree = bpy.data.node_groups.new("Operations", "GeoAnalogyTree")
+    node = tree.nodes.new("GeoAnalogyOperation")
+    for shown in (scene, scene.matching, tree, node):
+        own = [row for row in shown.bl_rna.properties if row.is_runtime]
+        assert own
+        assert [row.identifier for row in own if not tells(row) and row.type != "POINTER"] == []

@@ -519,6 +519,24 @@ def test_a_face_of_the_list_is_clicked():
     assert everything() == before
 
 
+def test_unfamiliar_faces_are_outlined_while_they_are_wanted():
+    shown = bridge("unfamiliar_faces")
+    assert list(shown.shapes()) == []
+    facades = street()
+    tower_and_shed()
+    examples(facades[0])
+    place()
+    assert [shape.points for shape in shown.shapes()] == [face.ring for face in unfamiliar()]
+    assert all(shape.closed and shape.colour == shown.UNFAMILIAR for shape in shown.shapes())
+    assert bpy.ops.geoanalogy.show_face(EXEC, True, index=1) == {"FINISHED"}
+    assert [shape.colour for shape in shown.shapes()] == [shown.UNFAMILIAR, shown.CLICKED]
+    bpy.context.scene.geoanalogy.show_unfamiliar = False
+    assert list(shown.shapes()) == []
+    bpy.context.scene.geoanalogy.show_unfamiliar = True
+    bpy.context.window.scene = bpy.data.scenes.new("Other")
+    assert list(shown.shapes()) == []
+
+
 def test_unfamiliar_faces_are_listed_of_placements_alone():
     rooms()
     bed()

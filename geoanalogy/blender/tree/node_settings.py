@@ -34,6 +34,20 @@ ROOFS = [
     ("gable", "Gable Roof", "A roof with gables over the short sides"),
     ("mansard", "Mansard Roof", "A roof whose lower faces are steeper"),
 ]
+#: Faces of an extruded solid, as the engine names them, and what they are.
+FACES = {
+    "side": "Label of the sides",
+    "top": "Label of the flat cap",
+    "bottom": "Label of what lies on the surface that is extruded from",
+    "roof": "Label of the faces of the roof",
+    "gable": "Label of the walls under the roof",
+}
+
+#: What measures of an extrusion are.
+HEIGHT = "From the surface to the flat cap, or to the eaves of a roof"
+PITCH = "How steep the roof is"
+OVERHANG = "How far the roof reaches beyond the walls"
+
 KINDS = [("merge", "Merge", "They become one solid"), ("subtract", "Subtract", "They are cut out")]
 TARGETS = [
     ("surface", "Own Surface", "The solid that they stand on"),
@@ -165,7 +179,9 @@ class BuildingSettings:
     """The properties of nodes that extrude, combine or divide."""
 
     works_on: StringProperty(name="Label", description="Of what it works on", get=_get("label", ""), set=_set("label"))
-    height: FloatProperty(name="Height", subtype="DISTANCE", get=_get("height", 0.0), set=_set("height"))
+    height: FloatProperty(
+        name="Height", description=HEIGHT, subtype="DISTANCE", get=_get("height", 0.0), set=_set("height")
+    )
     factor: FloatVectorProperty(
         name="Random Factor",
         description="Least and greatest multiplier of the height",
@@ -181,16 +197,43 @@ class BuildingSettings:
     )
     roof: EnumProperty(name="Roof", **_enum("kind", ROOFS, "roof"))
     pitch: FloatProperty(
-        name="Pitch", subtype="ANGLE", get=_get("pitch", PLAIN["pitch"], "roof"), set=_set("pitch", "roof")
+        name="Pitch",
+        description=PITCH,
+        subtype="ANGLE",
+        get=_get("pitch", PLAIN["pitch"], "roof"),
+        set=_set("pitch", "roof"),
     )
     overhang: FloatProperty(
-        name="Overhang", subtype="DISTANCE", get=_get("overhang", 0.0, "roof"), set=_set("overhang", "roof")
+        name="Overhang",
+        description=OVERHANG,
+        subtype="DISTANCE",
+        get=_get("overhang", 0.0, "roof"),
+        set=_set("overhang", "roof"),
     )
-    side: StringProperty(name="Sides", get=_get("side", PLAIN["side"], "faces"), set=_set("side", "faces"))
-    top: StringProperty(name="Top", get=_get("top", PLAIN["top"], "faces"), set=_set("top", "faces"))
-    bottom: StringProperty(name="Bottom", get=_get("bottom", PLAIN["bottom"], "faces"), set=_set("bottom", "faces"))
-    roof_label: StringProperty(name="Roof Faces", get=_get("roof", PLAIN["roof"], "faces"), set=_set("roof", "faces"))
-    gable: StringProperty(name="Gables", get=_get("gable", PLAIN["gable"], "faces"), set=_set("gable", "faces"))
+    side: StringProperty(
+        name="Sides", description=FACES["side"], get=_get("side", PLAIN["side"], "faces"), set=_set("side", "faces")
+    )
+    top: StringProperty(
+        name="Top", description=FACES["top"], get=_get("top", PLAIN["top"], "faces"), set=_set("top", "faces")
+    )
+    bottom: StringProperty(
+        name="Bottom",
+        description=FACES["bottom"],
+        get=_get("bottom", PLAIN["bottom"], "faces"),
+        set=_set("bottom", "faces"),
+    )
+    roof_label: StringProperty(
+        name="Roof Faces",
+        description=FACES["roof"],
+        get=_get("roof", PLAIN["roof"], "faces"),
+        set=_set("roof", "faces"),
+    )
+    gable: StringProperty(
+        name="Gables",
+        description=FACES["gable"],
+        get=_get("gable", PLAIN["gable"], "faces"),
+        set=_set("gable", "faces"),
+    )
     combination: EnumProperty(name="Kind", **_enum("kind", KINDS))
     target: EnumProperty(name="With", **_enum("target", TARGETS))
     weights: StringProperty(

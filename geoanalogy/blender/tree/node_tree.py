@@ -58,7 +58,13 @@ class GEOANALOGY_NT_tree(bpy.types.NodeTree):
         if 0 <= index < len(self.nodes):
             self.nodes.active = self.nodes[index]
 
-    active_index: IntProperty(name="Active Operation", get=_active, set=_activate, options={"SKIP_SAVE"})
+    active_index: IntProperty(
+        name="Active Operation",
+        description="What the panels show, and what the next operation builds on",
+        get=_active,
+        set=_activate,
+        options={"SKIP_SAVE"},
+    )
 
     def update(self):
         for look in on_linked:
