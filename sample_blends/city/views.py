@@ -29,8 +29,11 @@ VIEWS: dict[str, dict[str, tuple[Point, Point, float]]] = {
 #: Pixels of a picture, and samples per pixel.
 SIZE, SAMPLES = (1280, 720), 12
 
-#: Sky from the horizon up, scene-linear, and its strength.
-HORIZON, ZENITH, STRENGTH = (0.78, 0.84, 0.92), (0.22, 0.42, 0.80), 0.75
+#: Sky from the horizon up, scene-linear, and its strength; sine of the angle above the horizon where it is bluest.
+HORIZON, ZENITH, STRENGTH, BLUEST = (0.60, 0.79, 1.0), (0.16, 0.38, 0.85), 0.75, 0.25
+
+#: Metres at which the haze takes 63 % of what is seen: hardly any of the nearest houses, and all of the horizon.
+VISIBILITY = 1100.0
 
 #: Strength of the sun, W/m².
 SUN = 3.6
@@ -54,13 +57,36 @@ def light(scene: bpy.types.Scene) -> None:
     background.inputs["Strength"].default_value = STRENGTH
     coordinates, split = tree.nodes.new("ShaderNodeTexCoord"), tree.nodes.new("ShaderNodeSeparateXYZ")
     ramp = tree.nodes.new("ShaderNodeValToRGB")
-    for element, colour, position in zip(ramp.color_ramp.elements, (HORIZON, ZENITH), (0.0, 0.45), strict=True):
+    for element, colour, position in zip(ramp.color_ramp.elements, (HORIZON, ZENITH), (0.0, BLUEST), strict=True):
         element.color, element.position = (*colour, 1.0), position
     tree.links.new(coordinates.outputs["Generated"], split.inputs["Vector"])
     tree.links.new(split.outputs["Z"], ramp.inputs["Fac"])
     tree.links.new(ramp.outputs["Color"], background.inputs["Color"])
     for lamp in (o.data for o in scene.objects if o.type == "LIGHT"):
         lamp.energy = SUN
+
+
+def veil(material: bpy.types.Material) -> None:
+    """Let a material fade into the colour of the horizon with the square of the distance."""
+    tree = material.node_tree
+    output = next((node for node in tree.nodes if node.type == "OUTPUT_MATERIAL"), None) if tree else None
+    if output is None or not output.inputs["Surface"].is_linked:
+        return
+    surface = output.inputs["Surface"].links[0].from_socket
+    value = tree.nodes.new("ShaderNodeCameraData").outputs["View Distance"]
+    for operation, amount in (("DIVIDE", VISIBILITY), ("POWER", 2.0), ("MULTIPLY", -1.0), ("EXPONENT", None)):
+        node = tree.nodes.new("ShaderNodeMath")
+        node.operation = operation
+        tree.links.new(value, node.inputs[0])
+        if amount is not None:
+            node.inputs[1].default_value = amount
+        value = node.outputs[0]
+    haze, mix = tree.nodes.new("ShaderNodeEmission"), tree.nodes.new("ShaderNodeMixShader")
+    haze.inputs["Color"].default_value, haze.inputs["Strength"].default_value = (*HORIZON, 1.0), STRENGTH
+    tree.links.new(value, mix.inputs[0])
+    tree.links.new(haze.outputs[0], mix.inputs[1])
+    tree.links.new(surface, mix.inputs[2])
+    tree.links.new(mix.outputs[0], output.inputs["Surface"])
 
 
 def main() -> None:
@@ -75,6 +101,8 @@ def main() -> None:
     bpy.ops.wm.open_mainfile(filepath=str(arguments.file.absolute()))
     scene = bpy.context.scene
     light(scene)
+    for material in bpy.data.materials:
+        veil(material)
     render = scene.render
     render.engine, scene.cycles.samples, scene.cycles.device = "CYCLES", SAMPLES, "CPU"
     scene.cycles.use_denoising = True
