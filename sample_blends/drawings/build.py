@@ -7,6 +7,7 @@ results: replaying makes those.
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 from pathlib import Path
 
@@ -25,6 +26,9 @@ from .truth import FOUND, options_of, picture_of
 
 #: Pixels of the longer side of a background, which is soft, and of a rendered picture.
 BACKGROUND, RENDERED = 480, 1200
+
+#: Custom property of a query with the outlines of all places where its edit belongs, as JSON.
+PLACES = "places"
 
 #: What the frame leaves of the sheet on each side, as a share of it: no edge of the paper shows.
 CROPPED = 0.002
@@ -147,6 +151,7 @@ def record(edit: Edit) -> bpy.types.Node:
     context = bpy.context
     points = np.column_stack([edit.query, np.zeros(len(edit.query))])
     query = region_queries.add_query(context, [points], edit.closed, name=edit.name)
+    query[PLACES] = json.dumps([np.round(truth(np.asarray(edit.query)), 4).tolist() for truth in edit.truth])
     steps = region_recording.region_steps(context, query, options_of(edit), threshold=edit.threshold)
     node = run(steps)
     wrong = mistaken(edit, node)

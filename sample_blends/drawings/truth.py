@@ -1,16 +1,17 @@
 """Table 3.1 from known truth: ``python -m sample_blends.drawings.truth [scene …]``.
 
-For the first edit of every picture: how many refined correspondences there are, how many of them lie on a place where
-the edit belongs (plain and weighted by their confidence), which of these places are found, and how far off they are.
+For the first edit of every picture, or with ``--all`` for every edit: how many refined correspondences there are, how
+many of them lie on a place where the edit belongs (plain and weighted by their confidence), which of these places are
+found, and how far off they are.
 """
 
 from __future__ import annotations
 
 import argparse
 import importlib
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -21,6 +22,12 @@ from geoanalogy.regions.view import transformation_space
 from . import SCENES
 from .lines import Array, Warp
 from .picture import Edit, Picture
+
+#: Head of the table.
+HEAD = (
+    "| result | edit | correspondences | inliers | weighted | found | false | error |",
+    "| --- | --- | --- | --- | --- | --- | --- | --- |",
+)
 
 #: The thesis's unit of the transformation space (section 3.2): of the drawing's diagonal; a factor; a turn.
 UNIT = (0.03, np.log(1.25), np.radians(45.0))
@@ -43,8 +50,6 @@ class Row:
         True places, those that were found, and shown regions that are none.
     error : float
         Median distance from the truth inside the query, as a share of the target's diagonal, over all that were found.
-    seconds : float
-        Processor time.
     """
 
     scene: str
@@ -56,7 +61,6 @@ class Row:
     found: int
     false: int
     error: float
-    seconds: float
 
 
 def picture_of(scene: str) -> Picture:
@@ -93,13 +97,7 @@ def errors(mapping: Warp, truth: Warp, at: Array) -> Array:
 def measure(picture: Picture, edit: Edit) -> Row:
     """Match an edit of a picture, and compare with what is known."""
     drawing = ga.Drawing(picture.polylines)
-    started = time.process_time()
     matches = ga.match_regions(drawing, edit.query, options_of(edit))
-    return compared(picture, edit, drawing, matches, time.process_time() - started)
-
-
-def compared(picture: Picture, edit: Edit, drawing: ga.Drawing, matches: ga.Matches, seconds: float) -> Row:
-    """What was found beside what is known."""
     if edit.threshold is not None:
         matches = matches.above(edit.threshold)
     at = probes(edit)
@@ -122,7 +120,6 @@ def compared(picture: Picture, edit: Edit, drawing: ga.Drawing, matches: ga.Matc
         int(hits.sum()),
         false,
         float(np.median(best[hits])) if hits.any() else float("nan"),
-        seconds,
     )
 
 
@@ -149,23 +146,34 @@ def inliers(space: object, truth: Sequence[Warp], diagonal: float) -> np.ndarray
     return nearest < 1.0
 
 
+def written(document: Path, rows: Sequence[str]) -> str:
+    """A document with the rows in place of those of its table."""
+    lines = document.read_text(encoding="utf-8").splitlines()
+    start = lines.index(HEAD[0])
+    end = next(i for i in range(start, len(lines) + 1) if i == len(lines) or not lines[i].startswith("|"))
+    return "\n".join([*lines[:start], *HEAD, *rows, *lines[end:]]) + "\n"
+
+
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("scenes", nargs="*", default=SCENES)
     parser.add_argument("--all", action="store_true", help="all edits, not the first of each picture alone")
+    parser.add_argument("--document", type=Path, help="write the table into this document, in place of its own")
     arguments = parser.parse_args()
-    print("| result | edit | correspondences | inliers | weighted | found | false | error | CPU s |")
-    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
+    print("\n".join(HEAD))
+    rows = []
     for scene in arguments.scenes:
         picture = picture_of(scene)
-        for edit in picture.edits if arguments.all else picture.edits[:1]:
+        for i, edit in enumerate(picture.edits if arguments.all else picture.edits[:1]):
             r = measure(picture, edit)
-            print(
-                f"| {picture.figure} {r.scene} | {r.edit} | {r.count} | {r.inliers:.2%} | {r.weighted:.2%} "
-                f"| {r.found} of {r.places} | {r.false} | {r.error:.2%} | {r.seconds:.1f} |",
-                flush=True,
+            rows.append(
+                f"| {'' if i else f'{picture.figure} {r.scene}'} | {r.edit} | {r.count} | {r.inliers:.2%} "
+                f"| {r.weighted:.2%} | {r.found} of {r.places} | {r.false} | {r.error:.2%} |"
             )
+            print(rows[-1], flush=True)
+    if arguments.document is not None:
+        arguments.document.write_text(written(arguments.document, rows), encoding="utf-8")
 
 
 if __name__ == "__main__":
