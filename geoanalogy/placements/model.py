@@ -18,6 +18,7 @@ from .arrangement import Arrangement, arrangement_of
 from .examples import Example, Orientation, checked, nearest_directions, orientation_of, parents_of
 from .lesson import Lesson
 from .options import PlacementOptions
+from .pairs import with_twins
 from .refinement import refined
 from .regression import predicted_targets
 from .results import Placement, disjoint, told
@@ -170,16 +171,19 @@ class PlacementModel:
             else:
                 index = index[np.argsort(-score[index], kind="stable")]
             boxes, similar = refined(self.lesson, arrangement, seen, index)
+            score = score[index]
             if least > 0:
-                still = without_overlaps(boxes, score[index], drawn, self.options.allow_overlaps)
-                index, boxes, similar = index[still], boxes[still], similar[still]
+                boxes, similar, score = with_twins(self.lesson, arrangement, positive, boxes, similar, score)
+                still = without_overlaps(boxes, score, drawn, self.options.allow_overlaps)
+                still = still[score[still] >= least]
+                boxes, similar, score = boxes[still], similar[still], score[still]
             why = cache(partial(self._reasons, arrangement, boxes))
-            for k, (i, box, alike) in enumerate(zip(index, boxes, similar, strict=True)):
+            for k, (box, alike) in enumerate(zip(boxes, similar, strict=True)):
                 like = self.lesson.positive[np.argmax(alike[self.lesson.positive])]
                 found.append(
                     Placement(
                         Rectangle.from_box(box, frame, self.lesson.taught[like].quarter),
-                        float(score[i]),
+                        float(score[k]),
                         parent,
                         float(np.clip(1.0 - alike.max(), 0.0, 1.0)),
                         partial(told, why, k),

@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from .arrangement import Arrangement
 from .boxes import union_overlap
 from .construction import EQUALLY_ALIKE, ROUNDED
+from .habits import CONSTRUCTED
 from .lesson import Lesson
 from .signature import signature
 from .survey import AROUND, SAME, Survey
@@ -74,10 +75,36 @@ def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDAr
     order = np.lexsort((-worth, np.round(deformed, ROUNDED), worth < top[rows] - EQUALLY_ALIKE, rows))
     row, first = np.unique(rows[order], return_index=True)
     boxes[row], similar[row] = options[order[first]], similarities[order[first]]
-    if not lesson.habits.exact:
-        unsure = similar[:, p].max(axis=1) < SURE
+    unsure = np.flatnonzero(similar[:, p].max(axis=1) < SURE)
+    if len(unsure) and not lesson.habits.exact:
+        unsure = unsure[~copied(lesson, arrangement, boxes[unsure])]
         boxes[unsure] = middle(boxes[unsure], seen.boxes, seen.certainty)
     return boxes, similar
+
+
+def copied(lesson: Lesson, arrangement: Arrangement, boxes: Array) -> NDArray[np.bool_]:
+    """Which boxes stand to an element just as an example stands to its own, which is of the same size.
+
+    What is kept exactly by a box and an element of the same sizes is no estimate: a middle could only blur it.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    arrangement : Arrangement
+    boxes : ndarray of shape (n, 4)
+
+    Returns
+    -------
+    ndarray of shape (n,), bool
+    """
+    found = np.zeros(len(boxes), dtype=bool)
+    seen = signature(arrangement, boxes, 1, lesson.labels, outlines=False)
+    limit = CONSTRUCTED * lesson.widths[:2, None, None]
+    for key, values in seen.boxes.items():
+        # From the minimum and from the maximum of the nearest element, at the low and the high edge.
+        here, taught = (v[:, 0][:, :, [0, 2], :2] for v in (values, lesson.kept.boxes[key][lesson.positive]))
+        found |= (np.abs(here[:, None] - taught[None]) <= limit).all(axis=(2, 3, 4)).any(axis=1)
+    return found
 
 
 def middle(boxes: Array, candidates: Array, certainty: Array) -> Array:

@@ -2,8 +2,11 @@
 
 import numpy as np
 import pytest
+from placement_scenes import below, facade
 
-from geoanalogy.placements.refinement import OWN_WEIGHT, middle
+import geoanalogy as ga
+from geoanalogy.placements.arrangement import arrangement_of
+from geoanalogy.placements.refinement import OWN_WEIGHT, copied, middle
 
 BOX = np.array([[0.0, 0.0, 2.0, 1.0]])
 
@@ -30,3 +33,12 @@ def test_each_box_moves_by_itself():
     moved = middle(boxes, candidates, np.ones(2))
     step = 0.1 / (1 + OWN_WEIGHT)
     assert moved == pytest.approx(boxes + np.array([[step], [-step]]))
+
+
+def test_a_copy_of_an_example_stays_exactly_where_it_is():
+    scene = ga.Scene(facade(0, 4, 3))
+    gaps = {"f 0 0": 0.1, "f 2 1": 0.25, "f 3 0": 0.4}
+    lesson = ga.learn_placement([ga.Example(scene, below(scene, id, gap)) for id, gap in gaps.items()]).lesson
+    arrangement = arrangement_of(scene, scene.polygon("f"), 0.0)
+    boxes = np.array([below(scene, "f 1 2", gap).box(0.0)[0] for gap in (0.25, 0.3)])
+    assert copied(lesson, arrangement, boxes).tolist() == [True, False]
