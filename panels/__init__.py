@@ -13,6 +13,7 @@ MODULES = (
     ".drawings",
     ".diagnostics",
     ".node_editor",
+    ".menu",
 )
 
 

@@ -1,5 +1,6 @@
 """Whatever can be set in the engine can be set in Blender."""
 
+import importlib
 from dataclasses import fields
 
 import bpy
@@ -76,3 +77,22 @@ def test_what_panels_and_nodes_show_has_tooltips():
         own = [row for row in shown.bl_rna.properties if row.is_runtime]
         assert own
         assert [row.identifier for row in own if not tells(row) and row.type != "POINTER"] == []
+
+
+def test_blenders_search_finds_the_operators_in_a_menu(addon):
+    """Others belong to a place in the sidebar or the node editor."""
+    groups = importlib.import_module(f"{addon.__name__}.panels.menu").GROUPS
+    listed = [name for group in groups for name in group]
+    assert len(set(listed)) == len(listed)
+    assert set(dir(bpy.ops.geoanalogy)) - set(listed) == {
+        "add_node",
+        "build_on",
+        "move_operation",
+        "mute_operation",
+        "remove_operation",
+        "select_examples",
+        "set_target",
+        "show_face",
+    }
+    assert set(listed) <= set(dir(bpy.ops.geoanalogy))
+    assert bpy.types.GEOANALOGY_MT_object.bl_label == "GeoAnalogy"
