@@ -28,7 +28,6 @@ from ...poses.scatter import ScatterModel, ScatterOptions
 from ...progress import Stepper, within
 from .. import names
 from ..linked import is_here
-from ..reading.footprints import pose_of, rest_of
 from ..reading.ground import label_of
 from .editing import chosen_outputs, free_id
 from .evaluating import (
@@ -42,9 +41,9 @@ from .evaluating import (
     write_node,
 )
 from .lessons import learn, learn_group, learn_row, scene_without
-from .refresh import proposed_by
+from .selected import objects_behind
 from .sites import Site, site_of, sites_in
-from .store import Placed, builds, ensure_tree, placed_by, tree_of
+from .store import builds, ensure_tree, placed_by, tree_of
 from .whole import whole_steps, write_whole
 from .writing_nodes import add_node, write_operation, write_placed
 
@@ -272,7 +271,7 @@ def transfer_steps(
 
     def make(site: Site, scene: Scene, before: Operation | None) -> Operation:
         group = learn_group(items, site, scene, options or TransferOptions(), marks)
-        meshes = tuple(one.mesh for one in _placed(items, tree_of(context.scene), site))
+        meshes = tuple(one.mesh for one in objects_behind(items, tree_of(context.scene), site))
         return GroupPlacement(meshes=meshes, labels=tuple(labels), group=group, own=own, everything=everything)
 
     return _record_steps(context, items, GroupPlacement, make, name or f"{labels[0]} group")
@@ -367,28 +366,6 @@ def _most_per(max_per: Mapping[str, int] | None, model: PoseModel) -> dict[str, 
     return {label or model.parent.label: count for label, count in (max_per or {}).items()}
 
 
-def _placed(items: Sequence[bpy.types.Object], tree: bpy.types.NodeTree | None, site: Site) -> list[Placed]:
-    """The library objects behind objects of the scene: they themselves, or what results are copies of."""
-    found = []
-    for item in items:
-        if names.KEY in item:
-            found.append(_behind(item, tree))
-        else:
-            found.append(Placed(item.name, item, rest_of(item, pose_of(item, site.plane), site.plane)))
-    return found
-
-
-def _behind(item: bpy.types.Object, tree: bpy.types.NodeTree | None) -> Placed:
-    """The library object that a result is a copy of, whatever has been done to the result since."""
-    source = None if tree is None else tree.nodes.get(item[names.NODE])
-    if source is not None:
-        meshes = {e.mesh for e in proposed_by(source) if e.key == item[names.KEY]}
-        for one in placed_by(source):
-            if one.item is not None and one.mesh in meshes:
-                return one
-    raise InputError(f"object {item.name!r} is a result of nothing that is known here; replay the operations first")
-
-
 def _record_steps(
     context: bpy.types.Context, items: Sequence[bpy.types.Object], kind: type[Placing], make: Make, name: str
 ) -> Stepper[bpy.types.Node]:
@@ -411,7 +388,7 @@ def _record_steps(
         site = _site(around, layout, items[0])
         operation = make(site, scene_without(site, items), None)
         node = Node(free_id(around.tree, name), operation, links)
-    placed = _placed(items, around.tree, site)
+    placed = objects_behind(items, around.tree, site)
     if whole:
         around.engine = around.engine.with_node(node)
         layouts = yield from within(whole_steps(every), 0.3, 1.0)
