@@ -149,15 +149,15 @@ THINNEST_PARCEL = 0.5
 #: hundredth of a degree is a kilometre.
 SMALLEST_MAP = 0.05
 
-#: Vertices that a parcel that is built on may have: cadastral ones have tens, and relations between all edges cost their
-#: square. An outline that crosses itself is mended up to as many: its crossings may cost the square as well.
+#: Vertices that a parcel that is built on may have: cadastral ones have tens, and relations between all edges cost
+#: their square. An outline that crosses itself is mended up to as many: its crossings may cost the square as well.
 MOST_VERTICES = 500
 
-#: Vertices that any outline of a map may have: the streets of a district have thousands, and what is left of a survey by
-#: satellite or a broken export has millions.
+#: Vertices that any outline of a map may have: the streets of a district have thousands, and what is left of a survey
+#: by satellite or a broken export has millions.
 MOST_DRAWN = 20_000
 
-#: Distance, in extents of a parcel, that its outline may move where it has too many vertices: 3 cm on a plot of a house.
+#: Distance, in extents of a parcel, that its outline may move where it has too many vertices: 3 cm on a house's plot.
 SIMPLIFIED = 1e-3
 
 #: Distance, in sizes of a polygon, within which an edge lies on one of its former edges after it has been cut back.
