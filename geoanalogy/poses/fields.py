@@ -121,9 +121,9 @@ class Sheets:
             value = relation.value(seen)
             self._write(f"{relation.name} value", relation.element, mine, value)
             if relation.kind is not Kind.LENGTH:
-                slope = np.broadcast_to(relation.slope(seen), value.shape)
-                reach = np.divide(1.0, slope, out=np.full(value.shape, FAR), where=slope > 0)
-                self._write(f"{relation.name} reach", relation.element, mine, np.minimum(reach, FAR))
+                with np.errstate(divide="ignore"):
+                    reach = 1.0 / np.broadcast_to(relation.slope(seen), value.shape)
+                self._write(f"{relation.name} reach", relation.element, mine, np.minimum(reach, FAR, out=reach))
             if relation.directional is not None and relation in directions:
                 self._write(relation.directional.name, relation.element, mine, relation.directional.reference(seen))
         self._done.update((n, p.content) for n in names for p in missing)
@@ -202,6 +202,8 @@ class Fields:
         #: Fields by name, and the rows of the arrangement's features in those of their type.
         self._kept: dict[str, Array32] = {}
         self._features: dict[ElementType, Indices] = {}
+        #: What has been asked for.
+        self._evaluated: set[tuple[object, ...]] = set()
 
     def evaluate(self, relations: Iterable[Positional], directions: Collection[Positional] | None = None) -> None:
         """Evaluate relations that are not there yet.
@@ -213,10 +215,11 @@ class Fields:
             Those of them whose directional partners are evaluated too; None: all.
         """
         wanted = list(dict.fromkeys(relations))
-        turned = [r for r in wanted if r.directional is not None and (directions is None or r in directions)]
-        names = {f"{r.name} value" for r in wanted} | {r.directional.name for r in turned if r.directional is not None}
-        if names <= self._kept.keys():
+        asked = (*wanted, None, *(() if directions is None else directions), directions is None)
+        if asked in self._evaluated:
             return
+        self._evaluated.add(asked)
+        turned = [r for r in wanted if r.directional is not None and (directions is None or r in directions)]
         self._sheets.evaluate(self._polygons, wanted, turned)
         for element in {r.element for r in wanted}:
             self._features[element] = self._sheets.rows(element, self._polygons)

@@ -98,6 +98,7 @@ def find_footprint_candidates(
     importance = importance.of_strongest(STRONG)
     rows, columns = np.arange(0, grid.rows, stride), np.arange(0, grid.columns, stride)
     lattice = rows[:, None] * grid.columns + columns
+    numbers = np.arange(lattice.size).reshape(lattice.shape)
     open_cells = ~taken[lattice]
     tried = directions(importance)
     if not tried:
@@ -107,9 +108,8 @@ def find_footprint_candidates(
         c, s = np.cos(direction), np.sin(direction)
         steps = grid.steps(importance.samples @ np.array([[c, s], [-s, c]]))
         (left, low), (right, high) = steps.min(axis=0), steps.max(axis=0)
-        row = np.flatnonzero((rows + low >= 0) & (rows + high < grid.rows))
-        column = np.flatnonzero((columns + left >= 0) & (columns + right < grid.columns))
-        cells = (row[:, None] * len(columns) + column)[open_cells[np.ix_(row, column)]]
+        row, column = _fitting(low, high, stride, grid.rows), _fitting(left, right, stride, grid.columns)
+        cells = numbers[row, column][open_cells[row, column]]
         # Where each sample of the footprint is.
         at = lattice.ravel()[cells] + (steps[:, 1] * grid.columns + steps[:, 0])[:, None]
         free = ~blocked[at].any(axis=0)
@@ -131,6 +131,11 @@ def find_footprint_candidates(
     which, cell = np.divmod(best[chosen], lattice.size)
     angle = np.array(tried)[which]
     return Candidates(grid.points[lattice.ravel()[cell]], angle, strength[chosen] / importance.query.total)
+
+
+def _fitting(low: int, high: int, stride: int, size: int) -> slice:
+    """Which of every so many-th place in a line keep within its size with what reaches from `low` to `high`."""
+    return slice(max(0, math.ceil(-low / stride)), max(0, (size - 1 - high) // stride + 1))
 
 
 @dataclass(frozen=True)
@@ -372,12 +377,13 @@ def directions(importance: Importance) -> list[float]:
         # The angle that gathers most around it, then the mean of what it gathers.
         lead = np.argsort(-left, kind="stable")[:LEADS]
         near = np.abs(wrap(angle[lead][:, None] - angle)) < apart
-        gathered = (near * left).sum(axis=1)
-        best = near[np.argmax(gathered)]
-        if result and gathered.max() < least:
+        gathered = near @ left
+        first = int(np.argmax(gathered))
+        if result and gathered[first] < least:
             break
-        middle = angle[lead[np.argmax(gathered)]]
-        mean = middle + np.average(wrap(angle[best] - middle), weights=np.maximum(left[best], 1e-12))
+        best, middle = near[first], angle[lead[first]]
+        share = np.maximum(left[best], 1e-12)
+        mean = middle + (wrap(angle[best] - middle) @ share) / share.sum()
         result.append(float(mean % (2 * np.pi)))
         left[best] = 0.0
     return result

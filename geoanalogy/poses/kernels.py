@@ -49,4 +49,8 @@ def wrap(difference: NDArray[Real], period: NDArray[Real] | float = 2 * np.pi) -
     ndarray
     """
     # Several times as fast as the remainder.
-    return np.asarray(difference - period * np.rint(difference / period), dtype=difference.dtype)
+    turns = difference / period
+    np.rint(turns, out=turns)
+    turns *= period
+    np.subtract(difference, turns, out=turns)
+    return np.asarray(turns, dtype=difference.dtype)

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.elements import ElementType, ranges, run_starts
+from ..relations.elements import ElementType, first_of, ranges, run_starts
 from ..relations.table import BOUNDARY_ANGLE, SEGMENT_ANGLE, Kind, Positional
 from .arrangement import Arrangement
 from .options import PoseOptions
@@ -173,8 +173,8 @@ class Answers:
         As in `Question`, seen through the pair's symmetry.
     inner : ndarray of shape (e,), bool
     contact : ndarray of shape (e,)
-    pair_start : ndarray of shape (p,), int
-        First entry of each pair; pairs of one source feature are neighbours.
+    per_pair, pair_start : ndarray of shape (p,), int
+        Number of entries of each pair, and the first of them; pairs of one source feature are neighbours.
     accuracy : ndarray of shape (p,)
         I_m of each pair.
     source_feature, target_feature : ndarray of shape (p,), int
@@ -190,6 +190,7 @@ class Answers:
     turn: Array
     inner: NDArray[np.bool_]
     contact: Array
+    per_pair: Indices
     pair_start: Indices
     accuracy: Array
     source_feature: Indices
@@ -211,11 +212,6 @@ class Answers:
         return self._take(np.flatnonzero(self.possible >= share * self.possible.max()))
 
     @cached_property
-    def per_pair(self) -> Indices:
-        """Number of entries of each pair."""
-        return np.diff(self.pair_start, append=len(self.target))
-
-    @cached_property
     def possible(self) -> Array:
         """The most that each pair can contribute."""
         return self.accuracy * np.add.reduceat(self.weight.sum(axis=0), self.pair_start)
@@ -233,7 +229,8 @@ class Answers:
             turn=self.turn.take(entry, axis=1),
             inner=self.inner[entry],
             contact=self.contact[entry],
-            pair_start=np.cumsum(size) - size,
+            per_pair=size,
+            pair_start=first_of(size),
             accuracy=self.accuracy[pairs],
             source_feature=source,
             target_feature=self.target_feature[pairs],
@@ -296,7 +293,8 @@ def answers(query: Query, accuracy: Mapping[ElementType, Array], sense: Sense) -
             turn=turn[seen_by, :, entry].T,
             inner=inner[seen_by, entry],
             contact=question.contact[entry],
-            pair_start=np.cumsum(size) - size,
+            per_pair=size,
+            pair_start=first_of(size),
             accuracy=accuracy[element][source, feature],
             source_feature=source,
             target_feature=feature,

@@ -1,5 +1,6 @@
 """Propagating a pose: the steps of section 4.2 (figure 4.4) put together."""
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
@@ -287,7 +288,7 @@ class PoseModel:
             reach = self.reach * importance.scale
             # In pose space two directions at one place are two answers (figure 4.17).
             if any(
-                np.hypot(*(position - k.pose.position)) < reach
+                math.dist(position, k.pose.position) < reach
                 and not (in_space and abs(np.angle(np.exp(1j * (angle - k.pose.angle)))) > self.options.direction_width)
                 for k in kept
             ):

@@ -1,6 +1,7 @@
 """Pose validation: no unwanted intersections (section 4.8)."""
 
 from functools import cached_property
+from weakref import WeakKeyDictionary
 
 import numpy as np
 import shapely
@@ -43,6 +44,7 @@ class Validation:
         self._pose = pose
         self._footprint = footprint
         self._options = options
+        self._trees: WeakKeyDictionary[Arrangement, shapely.STRtree] = WeakKeyDictionary()
 
     @cached_property
     def _at_example(self) -> tuple[float, frozenset[str]]:
@@ -51,8 +53,10 @@ class Validation:
             return 1.0, frozenset()
         outline = shapely.Polygon(self._pose.to_scene(self._footprint))
         inside = outline.intersection(self._source.parent.shape).area / outline.area
-        hit = {m.label for m in self._source.members if _intersects(np.array([outline]), self._obstacle(m))[0]}
-        return inside, frozenset(hit)
+        members = self._source.members
+        outlines = np.full(len(members), outline, dtype=object)
+        hit = _share_more_than_a_sliver(outlines, np.array([self._obstacle(m) for m in members], dtype=object))
+        return inside, frozenset(m.label for m, h in zip(members, hit, strict=True) if h)
 
     @property
     def may_jut_out(self) -> bool:
@@ -129,8 +133,9 @@ class Validation:
         area = shapely.area(outlines)
         inside = shapely.area(shapely.intersection(outlines, target.parent.shape)) / area
         accepted: NDArray[np.bool_] = inside >= self._at_example[0] - JUTTING_SHARE
-        for _, member in self.obstacles(target):
-            accepted &= ~_intersects(outlines, self._obstacle(member))
+        tree = self._tree(target)
+        which, hit = tree.query(outlines, predicate="intersects")
+        accepted[which[_share_more_than_a_sliver(outlines[which], tree.geometries[hit])]] = False
         return accepted
 
     def hopeless(
@@ -164,11 +169,15 @@ class Validation:
         if not self.may_jut_out:
             shapely.prepare(target.parent.shape)
             hopeless |= ~shapely.covers(target.parent.shape, outlines)
-        for _, member in self.obstacles(target):
-            obstacle = self._obstacle(member)
-            shapely.prepare(obstacle)
-            hopeless |= shapely.intersects(obstacle, outlines)
+        hopeless[self._tree(target).query(outlines, predicate="intersects")[0]] = True
         return hopeless
+
+    def _tree(self, target: Arrangement) -> shapely.STRtree:
+        """The obstacles of an arrangement."""
+        tree = self._trees.get(target)
+        if tree is None:
+            tree = self._trees[target] = shapely.STRtree([self._obstacle(m) for _, m in self.obstacles(target)])
+        return tree
 
     @staticmethod
     def _outlines(ring: Array, position: Array, angle: Array, mirrored: bool, scale: float) -> NDArray[np.object_]:
@@ -180,7 +189,8 @@ class Validation:
         return shapely.polygons(np.stack([x, y], axis=-1))  # type: ignore[no-any-return]
 
 
-def _intersects(outlines: NDArray[np.object_], obstacle: shapely.Geometry) -> NDArray[np.bool_]:
-    """Whether outlines share more than a sliver with an obstacle."""
-    shared = shapely.area(shapely.intersection(outlines, obstacle))
-    return shared > TOUCHING_SHARE * np.minimum(shapely.area(outlines), obstacle.area)  # type: ignore[no-any-return]
+def _share_more_than_a_sliver(outlines: NDArray[np.object_], obstacles: NDArray[np.object_]) -> NDArray[np.bool_]:
+    """Whether outlines share more than a sliver with obstacles, pair by pair."""
+    shared = shapely.area(shapely.intersection(outlines, obstacles))
+    smaller = np.minimum(shapely.area(outlines), shapely.area(obstacles))
+    return shared > TOUCHING_SHARE * smaller  # type: ignore[no-any-return]

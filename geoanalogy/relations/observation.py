@@ -184,7 +184,10 @@ class Observation:
         direction = e.edge_vector / e.edge_length[:, None]
         x = self.points[:, 0] - e.edge_start[:, :1]
         y = self.points[:, 1] - e.edge_start[:, 1:]
-        along = np.clip(x * direction[:, :1] + y * direction[:, 1:], 0.0, e.edge_length[:, None])
+        along = x * direction[:, :1]
+        along += y * direction[:, 1:]
+        np.maximum(along, 0.0, out=along)
+        np.minimum(along, e.edge_length[:, None], out=along)
         x -= along * direction[:, :1]
         y -= along * direction[:, 1:]
         return along, length(x, y)
@@ -200,8 +203,8 @@ class Observation:
             last = np.append(first[1:], len(group))
             for k in range(count):
                 edge[k] = first[k] + np.argmin(distance[first[k] : last[k]], axis=0)
-            column = np.arange(n)
-            along, distance = along[edge, column], distance[edge, column]
+            place = edge * n + np.arange(n)
+            along, distance = along.ravel().take(place), distance.ravel().take(place)
         return NearestOfAll(self.elements, self.points, edge, along, distance, offset, ends)
 
     @cached_property

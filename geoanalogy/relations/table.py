@@ -29,7 +29,7 @@ class Kind(enum.Enum):
     ANGLE = "angle"  #: radians, compared modulo a full turn
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Directional:
     """A directional relation: the angle from a reference direction to the pose's (figure 4.5, bottom row).
 
@@ -46,7 +46,7 @@ class Directional:
     reference: Callable[[Observation], Array]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Positional:
     """A positional relation: it depends on the pose's position only (section 4.3, top row of figure 4.5).
 
