@@ -15,11 +15,10 @@ from numpy.typing import NDArray
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from .arrangement import Arrangement, arrangement_of
-from .boxes import interval_overlap
 
 Array = NDArray[np.float64]
 
-#: Shared height over united height from which two parents stand in one row.
+#: Shared height over the smaller height from which two parents stand in one row.
 ONE_ROW = 0.5
 #: Examples that every row has before any is drawn: half an observation, as little as says nothing (Jeffreys).
 UNSEEN = 0.5
@@ -105,10 +104,15 @@ def row_odds(scene: Scene, label: str, standings: Sequence[Standing]) -> dict[st
         siblings = [p for p in around.members if p.label == label]
         boxes = np.array([around.box_of(p) for p in siblings])
         drawn = np.array([s.box for s in standings if s.among == around.fingerprint])
-        share = (interval_overlap(boxes, boxes, 1) >= ONE_ROW).mean(axis=1)
-        count = (interval_overlap(boxes, drawn, 1) >= ONE_ROW).sum(axis=1)
+        share, count = _in_one_row(boxes, boxes).mean(axis=1), _in_one_row(boxes, drawn).sum(axis=1)
         rate = (count + UNSEEN) / (share * len(drawn) + UNSEEN)
         for sibling, value in zip(siblings, RATE_POWER * np.log(rate), strict=True):
             if value < 0:
                 found[str(sibling.id)] = found.get(str(sibling.id), 0.0) + float(value)
     return found
+
+
+def _in_one_row(a: Array, b: Array) -> NDArray[np.bool_]:
+    """Whether each two boxes stand in one row, shape (n, m): rooms of one storey do, be they large or small."""
+    low, high = np.maximum(a[:, None, 1], b[None, :, 1]), np.minimum(a[:, None, 3], b[None, :, 3])
+    return high - low >= ONE_ROW * np.minimum((a[:, 3] - a[:, 1])[:, None], (b[:, 3] - b[:, 1])[None])

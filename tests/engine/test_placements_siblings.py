@@ -59,6 +59,13 @@ def test_parents_that_nothing_holds_stand_nowhere():
     assert row_odds(rooms, "room", []) == {}
 
 
+def test_rooms_of_one_storey_stand_in_one_row():
+    rooms = [polygon(0, 0, 40, 20, "plan", "plan")]
+    rooms += [polygon(1 + 6 * i, 1, 4, height, "room", f"r{i}") for i, height in enumerate((3, 9, 4, 8, 3))]
+    plan = ga.Scene(rooms)
+    assert row_odds(plan, "room", standings(plan, "r0", "r2")) == {}
+
+
 def scores_by_row(scene, model):
     """Best score in each row of windows."""
     best = np.zeros(ROWS)
