@@ -162,6 +162,8 @@ def picture() -> Picture:
                 warps[0](ring),
                 lambda p: wings(home(p)),
                 [then(home, w) for w in warps[1:]],
+                # Mirrored, a butterfly looks the same.
+                options={"mirrored": False},
                 threshold=0.125,
             )
         ],

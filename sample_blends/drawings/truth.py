@@ -168,8 +168,8 @@ def main() -> None:
         for i, edit in enumerate(picture.edits if arguments.all else picture.edits[:1]):
             r = measure(picture, edit)
             rows.append(
-                f"| {'' if i else f'{picture.figure} {r.scene}'} | {r.edit} | {r.count} | {r.inliers:.2%} "
-                f"| {r.weighted:.2%} | {r.found} of {r.places} | {r.false} | {r.error:.2%} |"
+                f"|{'' if i else f' {picture.figure} {r.scene}'} | {r.edit} | {r.count} | {100 * r.inliers:.2f} % "
+                f"| {100 * r.weighted:.2f} % | {r.found} of {r.places} | {r.false} | {100 * r.error:.2f} % |"
             )
             print(rows[-1], flush=True)
     if arguments.document is not None:
