@@ -378,10 +378,10 @@ def directions(importance: Importance) -> list[float]:
         lead = np.argsort(-left, kind="stable")[:LEADS]
         near = np.abs(wrap(angle[lead][:, None] - angle)) < apart
         gathered = near @ left
-        first = int(np.argmax(gathered))
-        if result and gathered[first] < least:
+        most = int(np.argmax(gathered))
+        if result and gathered[most] < least:
             break
-        best, middle = near[first], angle[lead[first]]
+        best, middle = near[most], angle[lead[most]]
         share = np.maximum(left[best], 1e-12)
         mean = middle + (wrap(angle[best] - middle) @ share) / share.sum()
         result.append(float(mean % (2 * np.pi)))

@@ -159,7 +159,7 @@ class Elements:
             frame=frame,
             edge_start=np.concatenate(starts) if starts else np.zeros((0, 2)),
             edge_vector=edge_vector,
-            edge_direction=(edge_vector[:, 0] + 1j * edge_vector[:, 1]) / edge_length,
+            edge_direction=np.asarray((edge_vector[:, 0] + 1j * edge_vector[:, 1]) / edge_length, dtype=np.complex128),
             edge_heading=np.arctan2(edge_vector[:, 1], edge_vector[:, 0]),
             edge_length=edge_length,
             edge_offset=offset,
