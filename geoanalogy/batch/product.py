@@ -323,7 +323,7 @@ def added(facts: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
     whole: dict[str, Any] = {"parcels": [], "elements": 0, "problems": [], "known": 0, "surfaces": 0, "seconds": {}}
     for one in facts:
         for name in ("parcels", "elements", "problems", "known", "surfaces"):
-            whole[name] = whole[name] + one[name]
+            whole[name] += one[name]
         for kind, seconds in one["seconds"].items():
             whole["seconds"][kind] = whole["seconds"].get(kind, 0.0) + seconds
     whole["problems"] = list(dict.fromkeys(whole["problems"]))
