@@ -123,3 +123,20 @@ def test_hierarchy_does_not_change_with_similarity_transforms(similarity):
 def test_hierarchy_does_not_depend_on_the_order():
     for order in np.random.default_rng(0).permuted(np.tile(np.arange(len(FLAT)), (10, 1)), axis=1):
         assert parents(Scene([FLAT[i] for i in order])) == parents(Scene(FLAT))
+
+
+def test_a_scene_that_grows_step_by_step_has_the_hierarchy_of_the_whole():
+    """Later polygons hold earlier ones, lie in them, straddle them and equal them; one scene grows into several."""
+    rng = np.random.default_rng(4)
+    boxes = [rectangle(*rng.uniform(0.5, 4, 2), rng.uniform(0, 8, 2)) for _ in range(24)]
+    boxes += [rectangle(12, 12, (-1, -1)), boxes[3], rectangle(0.2, 0.2, (4, 4))]
+    polygons = [Polygon(box, "thing", f"thing {k}") for k, box in enumerate(boxes)]
+    first = Scene(polygons[:8])
+    for more in (polygons[8:12], polygons[8:], polygons[8:20], polygons[:7:-1]):
+        grown, whole = first.with_polygons(more), Scene([*polygons[:8], *more])
+        for p in whole.polygons:
+            above, below = whole.parent(p.id), [m.id for m in whole.members_of(p.id)]
+            grown_above = grown.parent(p.id)
+            assert (grown_above and grown_above.id) == (above and above.id)
+            assert [m.id for m in grown.members_of(p.id)] == below
+    assert any(whole.members_of(p.id) for p in polygons[:8])
