@@ -266,7 +266,10 @@ def settle_evidence(part, look):
 
 
 def f1(case, judgements, cuts):
-    """F1 of a case at several cuts, by default and at best; its share of boxes among the candidates; IoU of the one."""
+    """F1 of a case at several cuts, by default and at best; its share of boxes among the candidates; IoU of the one.
+
+    Of candidates as they are rated: before they are moved to where they fit best, doubted by rows and paired.
+    """
     kept, iou, scores, of_one = [], [], [], []
     for p in case["parts"]:
         judge = judgements[p["judge"]]
