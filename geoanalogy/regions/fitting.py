@@ -26,8 +26,9 @@ BAND = 7
 ROUNDS = ((0.3, 0.3), (0.1, 0.2), (0.03, 0.1), (0.02, 0.1), (0.01, 0.1), (0.01, 0.1))
 #: After so many rounds only some candidates are fitted on: those with most counterparts and evidence.
 FIRST_ROUNDS = 2
-#: In the rounds before that, one of so many samples is fitted.
-COARSE = 2
+#: In the rounds before that, one of so many samples is fitted, where they still turn by this share of what all do: with
+#: fewer, teeth and marks along a line would be passed over, and with them how far along it a target lies.
+COARSE, TURNED = 2, 0.8
 #: Candidates whose images' centres are nearer than this, in extents of the images, are of one place.
 PLACE = 0.35
 #: Functions that take the query points on average nearer than this, in extents of the images, lead to one fit.
@@ -80,6 +81,11 @@ class Samples:
     heading: Floats
     step: Floats
     turn: Floats
+
+    @property
+    def turning(self) -> float:
+        """The sum of the unsigned turns, radians."""
+        return float(np.abs((self.turn + np.pi) % (2.0 * np.pi) - np.pi).sum())
 
     @classmethod
     def of(cls, contours: Contours, query: Query, number: int) -> "Samples":
@@ -183,7 +189,9 @@ class Fitter:
         self.target = Target(contours, query)
         self.nodes, self.size = nodes, query.size
         self.strain, self.bend = smoothness(nodes)
-        self.sampling, self.coarse = (Sampling.of(contours, query, nodes, coarse) for coarse in (1, COARSE))
+        self.sampling, coarse = (Sampling.of(contours, query, nodes, every) for every in (1, COARSE))
+        simple = coarse.samples.turning >= TURNED * self.sampling.samples.turning
+        self.coarse = coarse if simple else self.sampling
 
     def start(
         self, source: Complex, image: Complex, weight: Floats, stiffness: tuple[float, float] = (0.3, 0.3)

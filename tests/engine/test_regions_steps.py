@@ -8,7 +8,7 @@ from drawn import closed, fish, moved
 import geoanalogy as ga
 from geoanalogy.progress import run
 from geoanalogy.regions.alignment import GAIN, align
-from geoanalogy.regions.fitting import Sampling, distinct
+from geoanalogy.regions.fitting import Fitter, Sampling, distinct
 from geoanalogy.regions.linkage import clusters, similarities
 from geoanalogy.regions.query import Query, Run
 from geoanalogy.regions.refinement import Refined, modes
@@ -110,3 +110,14 @@ def test_a_coarse_sampling_has_longer_steps_along_the_same_lines():
     assert away.max() < 0.01 * query.size
     identity = np.concatenate([nodes.at, np.ones(len(nodes.at))])
     np.testing.assert_allclose(coarse.rows @ identity, coarse.samples.points, atol=1e-9)
+
+
+@pytest.mark.parametrize(("teeth", "passed_over"), [(6, False), (40, True)])
+def test_lines_whose_bends_a_coarse_sampling_passes_over_are_sampled_finely_at_once(teeth, passed_over):
+    turn = np.linspace(0.0, 2.0 * np.pi, 801)
+    ring = (1.0 + 0.05 * np.cos(teeth * turn))[:, None] * np.stack([np.cos(turn), np.sin(turn)], 1)
+    drawing = ga.Drawing([ring, moved(ring, shift=(4.0, 0.0))])
+    box = np.array([(-1.2, -1.2), (1.2, -1.2), (1.2, 1.2), (-1.2, 1.2)])
+    query = Query.of(drawing, box, ga.RegionOptions())
+    fitter = Fitter(drawing.contours, query, Nodes.of(query.points, query.spacing, 1.5))
+    assert (fitter.coarse is fitter.sampling) == passed_over
