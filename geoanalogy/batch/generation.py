@@ -157,10 +157,10 @@ def generate(
     units = units_of(scene, wanted_labels(tree))
     if not units:
         labels = ", ".join(sorted({repr(p.label) for p in scene.polygons})[:5]) or "none"
-        wanted = ", ".join(sorted(map(repr, wanted_labels(tree) or ()))[:5])
+        wanted = ", ".join(sorted(map(repr, wanted_labels(tree, beginning=True) or ()))) or "none"
         raise InputError(
-            f"the tree builds on no parcel of this file: their labels are {labels}, and it works on {wanted}; name the "
-            "property with the labels, or map them by a table"
+            f"the tree builds on no parcel of this file: their labels are {labels}, and it begins with {wanted}; "
+            "name the property with the labels, or map them by a table"
         )
     tiles = divide(scene, units, choices.per_tile)
     wrong = [k for k in choices.only if not 1 <= k <= len(tiles)]

@@ -55,12 +55,14 @@ class Tile:
         return tuple(unit.parcel for unit in self.units)
 
 
-def wanted_labels(tree: OperationsTree) -> frozenset[str] | None:
+def wanted_labels(tree: OperationsTree, beginning: bool = False) -> frozenset[str] | None:
     """Labels of the polygons that a tree does something with.
 
     Parameters
     ----------
     tree : OperationsTree
+    beginning : bool
+        Only the labels of what the tree begins with, which are those of parcels: the rest it may have made itself.
 
     Returns
     -------
@@ -70,6 +72,8 @@ def wanted_labels(tree: OperationsTree) -> frozenset[str] | None:
     found: set[str] = set()
     for node in tree.nodes:
         operation = node.operation
+        if beginning and node.inputs:
+            continue
         if isinstance(operation, Placing):
             if operation.places_in is None:
                 return None

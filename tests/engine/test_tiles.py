@@ -188,7 +188,9 @@ def test_where_no_process_starts_one_sentence_says_so(tmp_path, monkeypatch):
 
 
 def test_what_nothing_is_built_on_is_said(tmp_path):
-    with pytest.raises(InputError, match=r"builds on no parcel of this file: their labels are 'lot', and it works on "):
+    with pytest.raises(
+        InputError, match=r"no parcel of this file: their labels are 'lot', and it begins with 'plot'; "
+    ):
         built(plots(label="lot"), tmp_path, Choices())
 
 
