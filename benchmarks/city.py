@@ -267,7 +267,7 @@ def workers(full: bool) -> Table | None:
     scene, whole = parcels(200 if full else 24), tree()
     rows, taken, first = [], 0.0, None
     for count in (1, 2, 4):
-        with distributed.LocalCluster(count, threads_per_worker=1, dashboard_address=None) as cluster:
+        with distributed.LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None) as cluster:
             job, seconds, _ = built(whole, scene, 1, cluster.scheduler_address)
         content = together(product for _, product in job.products()).content()
         taken, first = taken or seconds, first or content
