@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import BoolProperty, IntProperty
 
+from ..geoanalogy.blender.reading.identity import object_of
 from ..geoanalogy.blender.tree.learned import unfamiliar_of
 from ..geoanalogy.blender.view import look_at
 from ..geoanalogy.errors import InputError
@@ -34,7 +35,7 @@ class GEOANALOGY_OT_show_face(Edit, bpy.types.Operator):
         face = faces[self.index]
         context.scene.geoanalogy.unfamiliar_index = self.index
         if self.select:
-            item = context.scene.objects.get(face.name) or context.scene.objects.get(face.name.rpartition("/")[0])
+            item = object_of(context.scene, face.name)
             if item is None:
                 raise InputError(f"the face {face.name!r} has no object of its own; an operation has made it")
             for other in context.selected_objects:

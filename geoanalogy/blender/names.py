@@ -7,6 +7,10 @@ Whoever makes scenes by a script sets the custom properties of objects by these 
 #: of a solid whose material has a label are surfaces of their own.
 LABEL = "ga_label"
 
+#: On objects of the plan: the id that operations know it by, written by the first of them; it stays when the object is
+#: renamed.
+ID = "ga_id"
+
 #: On objects: name of the object that is the parent (none: found by containment).
 PARENT = "ga_parent"
 
@@ -53,7 +57,7 @@ OPERATION, RESULTS, EXAMPLES, FRAME = "operation", "results", "examples", "frame
 #: were unlike the examples when it was learned.
 RULE, REJECTED, UNFAMILIAR = "rule", "rejected", "unfamiliar"
 
-#: On trees: the outputs that the next operation builds on, and the names of the objects that the tree is applied to
+#: On trees: the outputs that the next operation builds on, and the ids of the objects that the tree is applied to
 #: (none: all).
 BUILD_ON, APPLIED_TO = "build_on", "applied_to"
 

@@ -19,6 +19,7 @@ from ...geometry.scene import Scene
 from .. import names
 from ..holders import holder_with
 from .footprints import footprint_ring_of
+from .identity import ids_of
 from .planes import SAME_PLANE_ASIDE, Plane, best_plane, extent
 from .shapes import KINDS, Ring, has_labelled_faces, labelled_faces, rings_of
 
@@ -41,7 +42,7 @@ class Ground:
     ----------
     plane : Plane
     scene : Scene
-        Ids are the objects' names, with a number behind a slash where an object has several polygons.
+        Ids are those of the objects (`identity`), with a number behind a slash where an object has several polygons.
     alternatives : dict of str to list of (float, float)
         By the polygon's id, the ring that stands for it when results are validated (section 4.8).
     """
@@ -61,10 +62,9 @@ class _Drawn:
     size: float
     part: int | None = None
 
-    @property
-    def name(self) -> str:
-        """The name of the object, with the number of the part behind it where it is a part of a solid."""
-        return self.item.name if self.part is None else f"{self.item.name}/{self.part}"
+    def id_in(self, ids: dict[str, str]) -> str:
+        """The id of the object, with the number of the part behind it where it is a part of a solid."""
+        return ids[self.item.name] if self.part is None else f"{ids[self.item.name]}/{self.part}"
 
 
 @dataclass
@@ -165,7 +165,7 @@ def read_grounds(
     Returns
     -------
     list of Ground
-        The largest first; polygons in the order of their names.
+        The largest first; polygons in the order of their ids.
 
     Raises
     ------
@@ -178,7 +178,7 @@ def read_grounds(
             raise error
         problems.append(f"{error}; it is left out")
 
-    labels = labels_of(scene)
+    labels, ids = labels_of(scene), ids_of(scene)
     plan = scene.geoanalogy.plan
     results = results_collection(scene)
     made = set() if results is None else {item.name for item in results.all_objects}
@@ -207,11 +207,11 @@ def read_grounds(
             "the scene has no labelled outlines; label the plan's meshes, curves or strokes in step 1, or import a plan"
         )
     layers: list[_Layer] = []
-    for flat in sorted(drawn, key=lambda d: (-d.size, d.name)):
+    for flat in sorted(drawn, key=lambda d: (-d.size, d.id_in(ids))):
         layer = next((one for one in layers if _lies_on(flat, one)), None)
         where = layer or _Layer(flat.plane, flat.size)
         try:
-            where.polygons[flat.name] = _polygons(flat, where.plane, labels.get(flat.item.name, ""))
+            where.polygons[flat.id_in(ids)] = _polygons(flat, where.plane, labels.get(flat.item.name, ""), ids)
         except InputError as error:
             fail(error)
             continue
@@ -223,10 +223,12 @@ def read_grounds(
         layer = min(layers, key=lambda one: abs(one.plane.to_plane([item.matrix_world.translation])[0, 2]))
         try:
             ring = footprint_ring_of(item, layer.plane, depsgraph)
-            layer.polygons[item.name] = [_polygon(item, layer.plane, [ring], item.name, labels[item.name])]
+            layer.polygons[ids[item.name]] = [
+                _polygon(item, layer.plane, [ring], ids[item.name], labels[item.name], ids)
+            ]
         except InputError as error:
             fail(error)
-    return [_ground(layer, scene, depsgraph) for layer in layers]
+    return [_ground(layer, scene, depsgraph, ids) for layer in layers]
 
 
 def only_in(ground: Ground, chosen: frozenset[str]) -> Ground:
@@ -236,7 +238,7 @@ def only_in(ground: Ground, chosen: frozenset[str]) -> Ground:
     ----------
     ground : Ground
     chosen : frozenset of str
-        Names of objects.
+        Ids of objects.
 
     Returns
     -------
@@ -269,12 +271,11 @@ def _lies_on(flat: _Drawn, layer: _Layer) -> bool:
     return bool((shared > OVER * (high - low)).all(axis=1).any())
 
 
-def _ground(layer: _Layer, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> Ground:
-    polygons = [p for name in sorted(layer.polygons) for p in layer.polygons[name]]
+def _ground(layer: _Layer, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, ids: dict[str, str]) -> Ground:
+    polygons = [p for id in sorted(layer.polygons) for p in layer.polygons[id]]
     alternatives = {}
-    for name in layer.polygons:
-        drawn = scene.objects.get(name)
-        wanted = None if drawn is None else drawn.get(names.VALIDATION)
+    for name, id in ids.items():
+        wanted = scene.objects[name].get(names.VALIDATION) if id in layer.polygons else None
         if wanted is None:
             continue
         item = scene.objects.get(str(wanted))
@@ -284,7 +285,7 @@ def _ground(layer: _Layer, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgrap
         if len(rings) != 1:
             raise InputError(f"object {item.name!r} has {len(rings)} closed lines; one is to stand for {name!r}")
         ring = layer.plane.to_plane(rings[0].points)[:, :2]
-        alternatives[name] = [(float(x), float(y)) for x, y in ring]
+        alternatives[id] = [(float(x), float(y)) for x, y in ring]
     return Ground(layer.plane, Scene(polygons, memory=memory), alternatives)
 
 
@@ -324,15 +325,16 @@ def _stands_out(item: bpy.types.Object, plane: Plane, size: float) -> bool:
     return bool(np.ptp(plane.to_plane(corners)[:, 2]) > 0.02 * size)
 
 
-def _polygons(flat: _Drawn, plane: Plane, label: str) -> list[Polygon]:
+def _polygons(flat: _Drawn, plane: Plane, label: str, ids: dict[str, str]) -> list[Polygon]:
     regions: dict[int, list[Ring]] = {}
     for ring in flat.rings:
         regions.setdefault(ring.region, []).append(ring)
     found = []
     parts = [part for rings in regions.values() for part in _nested(rings, plane)]
+    whole = flat.id_in(ids)
     for i, (rings, own) in enumerate(parts):
-        id = flat.name if len(parts) == 1 else f"{flat.name}/{i}"
-        found.append(_polygon(flat.item if flat.part is None else None, plane, rings, id, own or label))
+        id = whole if len(parts) == 1 else f"{whole}/{i}"
+        found.append(_polygon(flat.item if flat.part is None else None, plane, rings, id, own or label, ids))
     return found
 
 
@@ -362,7 +364,14 @@ def _holds(ring: Array, point: Array) -> bool:
     return bool((spans & (point[0] < x)).sum() % 2)
 
 
-def _polygon(item: bpy.types.Object | None, plane: Plane, rings: list[Array], id: str, label: str) -> Polygon:
+def _polygon(
+    item: bpy.types.Object | None,
+    plane: Plane,
+    rings: list[Array],
+    id: str,
+    label: str,
+    ids: dict[str, str],
+) -> Polygon:
     if item is None:
         return Polygon(rings[0], label=label, id=id, holes=rings[1:])
     orientation = item.get(names.ORIENTATION)
@@ -370,12 +379,13 @@ def _polygon(item: bpy.types.Object | None, plane: Plane, rings: list[Array], id
         x, y = plane.to_plane(np.array(item.matrix_world)[:3, 0] + plane.origin)[:2]
         orientation = float(orientation) + float(np.arctan2(y, x))
     segments = item.get(names.SEGMENT_LABELS)
+    parent = item.get(names.PARENT) or None
     return Polygon(
         rings[0],
         label=label,
         id=id,
         holes=rings[1:],
-        parent=item.get(names.PARENT) or None,
+        parent=ids.get(parent, parent),
         orientation=orientation,
         segment_labels=None if segments is None else [part.strip() for part in str(segments).split(",")],
     )

@@ -194,7 +194,7 @@ def read_surroundings(
     items : iterable of bpy.types.Object
         Objects that do not count as ground, besides the examples of operations.
     chosen : iterable of str, optional
-        Names of the objects of the plan that count, with what lies in them and what they lie in; empty: all; None:
+        Ids of the objects of the plan that count, with what lies in them and what they lie in; empty: all; None:
         those that the tree is applied to.
 
     Returns
@@ -240,7 +240,7 @@ def read_surroundings(
 
 
 def parcels_of(tree: bpy.types.NodeTree | None) -> list[str]:
-    """Names of the objects of the plan that a tree is applied to.
+    """Ids of the objects of the plan that a tree is applied to.
 
     Parameters
     ----------
@@ -261,7 +261,7 @@ def restricted(grounds: list[Ground], chosen: frozenset[str]) -> list[Ground]:
     ----------
     grounds : list of Ground
     chosen : frozenset of str
-        Names of objects.
+        Ids of objects.
 
     Returns
     -------

@@ -32,7 +32,7 @@ from ...tolerances import CONTAINED_SHARE
 from .. import names
 from ..linked import is_here
 from ..reading.footprints import footprint_of, pose_of
-from .evaluating import Surroundings, incoming_steps
+from .evaluating import Surroundings, incoming_steps, parcels_of
 from .placement_lessons import relearned_placement_steps
 from .sites import Site, site_of, sites_in
 from .store import builds, is_building, is_placement, placed_by
@@ -230,15 +230,15 @@ def relearned_steps(every: Sequence[Surroundings], node: bpy.types.Node) -> Step
     here = all(item is not None and is_here(item, around.scene) for item in items)
     if node.mute or not items or not here or (isinstance(operation, GroupPlacement) and not operation.own):
         return operation
-    poses, parent = _learned_from(operation)
-    if not builds(node.id_data):
+    tree, (poses, parent) = node.id_data, _learned_from(operation)
+    if not builds(tree):
         bare = Site(around.ground, Layout(around.ground.scene), None, around.depsgraph)
         if _all_stand(items, bare, poses) and holds(bare.scene, parent):
             return operation
     layout = yield from incoming_steps(around, node.name)
     site = site_of(sites_in(around.ground, layout, around.depsgraph), [around], items[0])
-    if site.surface is None and parent.id not in layout.polygon_ids and builds(node.id_data):
-        return operation  # the surface has gone elsewhere with its solid; what was learned stays
+    if site.surface is None and parent.id not in layout.polygon_ids and (builds(tree) or parcels_of(tree)):
+        return operation  # the surface has gone elsewhere, or the tree is applied to other parcels; what is known stays
     # The parent may itself be something that an operation has placed.
     if _all_stand(items, site, poses) and holds(site.scene, parent):
         return operation

@@ -8,13 +8,14 @@ from ...errors import InputError
 from ...progress import Stepper
 from .. import names
 from ..reading.ground import labels_of
+from ..reading.identity import ids_of
 from .evaluating import parcels_of, read_surroundings
 from .store import require_operations
 from .whole import Shown, whole_steps, write_whole
 
 
 def selected_parcels(context: bpy.types.Context) -> list[str]:
-    """Names of the selected objects of the plan.
+    """Ids of the selected objects of the plan.
 
     Parameters
     ----------
@@ -29,8 +30,8 @@ def selected_parcels(context: bpy.types.Context) -> list[str]:
     InputError
         Where there are none.
     """
-    labels = labels_of(context.scene)
-    found = sorted(i.name for i in context.selected_objects if i.name in labels and names.KEY not in i)
+    labels, ids = labels_of(context.scene), ids_of(context.scene)
+    found = sorted(ids[i.name] for i in context.selected_objects if i.name in labels and names.KEY not in i)
     if not found:
         raise InputError("no parcel is selected; select labelled outlines of the plan")
     return found
@@ -43,7 +44,7 @@ def apply_steps(context: bpy.types.Context, chosen: list[str] | None = None, *, 
     ----------
     context : bpy.types.Context
     chosen : list of str, optional
-        Names of the objects of the plan that it is applied to from now on; empty: everything; None: as before.
+        Ids of the objects of the plan that it is applied to from now on; empty: everything; None: as before.
     more : bool
         Whether it stays applied to what it was applied to before.
 

@@ -20,6 +20,7 @@ from ...placements.options import PlacementOptions
 from ...progress import Stepper, within
 from .. import names
 from ..reading.ground import label_of
+from ..reading.identity import keep_ids
 from ..reading.planes import Plane
 from ..reading.rectangles import middle_of, rectangle_of, require_stretchable, rest_on, target_of
 from .corrections import decide, forget_all
@@ -289,6 +290,7 @@ def _write_steps(
     if whole:
         write_whole(context.scene, tree, every, after)
     else:
+        keep_ids(context.scene, [around.ground.scene for around, _ in evaluated])
         write_node(known, evaluated)
         mark_stale(tree, known)
     write_unfamiliar(known, unfamiliar)

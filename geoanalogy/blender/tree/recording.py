@@ -29,6 +29,7 @@ from ...progress import Stepper, within
 from .. import names
 from ..linked import is_here
 from ..reading.ground import label_of
+from ..reading.identity import keep_ids
 from .editing import chosen_outputs, free_id
 from .evaluating import (
     Surroundings,
@@ -405,6 +406,7 @@ def _record_steps(
         around.nodes.append(known)
         write_whole(context.scene, tree, every, layouts)
     else:
+        keep_ids(context.scene, [around.ground.scene])
         write_node(known, [(around, after[0].elements)])
         mark_stale(tree, known)
     return known

@@ -13,6 +13,7 @@ from ...operations.layout import Layout
 from ...operations.node import Node
 from ...progress import Stepper, run, within
 from .. import names
+from ..reading.identity import keep_ids
 from ..writing.instances import arrange_collections, clear_results, collection_of, is_instance
 from ..writing.masses import write_masses
 from .evaluating import Surroundings, read_surroundings, write_node
@@ -109,6 +110,7 @@ def write_whole(
     """
     nodes = ordered_nodes(tree)
     rank = [node.name for node in nodes]
+    keep_ids(scene, [around.ground.scene for around in every])
     made = {item[names.NODE] for item in scene.objects if names.KEY in item}
     gone = made - {node.name for node in recorded_nodes(tree)}
     clear_results(scene, [name for name in sorted(gone) if collection_of(scene, name)])
