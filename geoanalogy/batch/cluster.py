@@ -63,8 +63,8 @@ def build_there(job: str, work: Sequence[Work], address: str) -> Generator[tuple
 
 def _futures(client: Any, job: str, work: Sequence[Work], remote: Any) -> Iterator[Any]:
     # What workers share is a result, not data: whichever of them is lost, the scheduler has it made again. Its name
-    # begins otherwise than those of tiles: from the first word the scheduler tells what a task will take, and took tiles
-    # for as brief as this one, not worth to be given to a worker that waits.
+    # begins otherwise than those of tiles: from the first word the scheduler tells what a task will take, and took
+    # tiles for as brief as this one, not worth to be given to a worker that waits.
     shared = client.submit(remote.shared, job, key=f"geoanalogy_job-{hashlib.sha256(job.encode()).hexdigest()[:32]}")
     futures = {
         client.submit(remote.build, shared, one.scene, digest(), key=f"geoanalogy_tile-{one.key}", retries=1): one.key

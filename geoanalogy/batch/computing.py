@@ -15,6 +15,7 @@ from ..operations.placing import Placing
 from ..operations.tree import OperationsTree
 from ..progress import Progress, Stepper, run
 from .detail import Detail, simplified
+from .placed import outlines_of
 from .product import Product, product_of, together
 from .release import digest
 from .tiles import Unit, read_scene_text
@@ -129,6 +130,7 @@ class _Worker:
         self.seed: int = plain["seed"]
         tree = OperationsTree(OperationsTree.from_dict(plain["tree"]).nodes, TimedEvaluations())
         self.tree = simplified(tree, plain["detail"])
+        self.outlines = outlines_of(self.tree)
 
     def build(self, ground: Scene, units: Sequence[Unit], progress: Progress | None) -> Product:
         """Build some units, together."""
@@ -150,7 +152,7 @@ class _Worker:
             "known": done.surfaces_reused - known,
             "surfaces": done.surfaces_reused - known + done.surfaces_evaluated - evaluated,
         }
-        product = product_of(applied, parcel_of, facts)
+        product = product_of(applied, parcel_of, facts, self.outlines)
         return Product(
             product.masses, product.placed, {**facts, "seconds": {**done.seconds, "all": time.process_time() - begin}}
         )

@@ -12,13 +12,17 @@ from numpy.typing import NDArray
 
 from ..errors import InputError
 from ..geometry.mesh import Mesh, joined
-from ..operations.applied import Applied, instances
+from ..operations.applied import Applied
 from ..operations.element import Element
+from .placed import Outlines, Placed, placed_of, placed_together
 
 Array = NDArray[np.float64]
 
 #: Version of the form that products have on disk.
-FORM = 1
+FORM = 2
+
+#: Names of the arrays of what is placed.
+PLACED = ("places", "scales", "low", "size", "bend", "bends")
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,35 +68,6 @@ class Masses:
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
-    """Library objects in their places.
-
-    Attributes
-    ----------
-    places : ndarray of shape (n, 4, 4)
-        From the object's coordinates, already scaled, to space: a rotation and a shift.
-    scales : ndarray of shape (n, 3)
-        Negative along an axis where the object is mirrored.
-    low, size : ndarray of shape (n, 3)
-        Box that it fills in its own coordinates, lower corner and extents; size 0 where its outline is not known.
-    meshes, labels, nodes, keys : list of str
-        Of each: the library object, what it is, and the name of the result.
-    """
-
-    places: Array
-    scales: Array
-    low: Array
-    size: Array
-    meshes: list[str]
-    labels: list[str]
-    nodes: list[str]
-    keys: list[str]
-
-    def __len__(self) -> int:
-        return len(self.meshes)
-
-
-@dataclass(frozen=True, eq=False)
 class Product:
     """What has been built of a tile.
 
@@ -110,9 +85,10 @@ class Product:
 
     def content(self) -> tuple[Any, ...]:
         """All but how long it took and what was remembered, comparable."""
-        m, p = self.masses, self.placed
-        arrays = (m.mesh.vertices, m.mesh.faces, m.mesh.uv, m.mesh.material_index, m.vertex_start, p.places, p.scales)
-        texts = (m.mesh.materials, m.names, m.labels, m.parcels, p.meshes, p.labels, p.nodes, p.keys)
+        m = self.masses
+        placed, plain = self.placed.content()
+        arrays = (m.mesh.vertices, m.mesh.faces, m.mesh.uv, m.mesh.material_index, m.vertex_start, *placed)
+        texts = (m.mesh.materials, m.names, m.labels, m.parcels, *plain)
         facts = {name: self.facts[name] for name in ("parcels", "elements", "problems")}
         return (*(a.tobytes() for a in arrays), json.dumps(texts), json.dumps(facts))
 
@@ -123,16 +99,18 @@ class Product:
         -------
         bytes
         """
-        m, p = self.masses, self.placed
+        m = self.masses
+        placed, plain = self.placed.content()
         texts = {
             "form": FORM,
             "materials": m.mesh.materials,
             "names": m.names,
             "labels": m.labels,
             "parcels": m.parcels,
-            "placed": [p.meshes, p.labels, p.nodes, p.keys],
+            "placed": plain,
             "facts": dict(self.facts),
         }
+        named: dict[str, Any] = dict(zip(PLACED, placed, strict=True))
         stream = io.BytesIO()
         np.savez(
             stream,
@@ -143,10 +121,7 @@ class Product:
             material=m.mesh.material_index.astype(np.int16),
             vertex_start=m.vertex_start,
             face_start=m.face_start,
-            places=p.places,
-            scales=p.scales,
-            low=p.low,
-            size=p.size,
+            **named,
         )
         return stream.getvalue()
 
@@ -181,8 +156,8 @@ class Product:
                 )
                 starts = (there["vertex_start"], there["face_start"])
                 masses = Masses(mesh, *starts, texts["names"], texts["labels"], texts["parcels"])
-                boxes = (there[name] for name in ("places", "scales", "low", "size"))
-                return cls(masses, Placed(*boxes, *texts["placed"]), texts["facts"])
+                placed = Placed.of_content([there[name] for name in PLACED], texts["placed"])
+                return cls(masses, placed, texts["facts"])
         except (ValueError, KeyError, EOFError, OSError, TypeError, IndexError, zipfile.BadZipFile) as error:
             if isinstance(error, InputError):
                 raise
@@ -217,38 +192,7 @@ def _starts(counts: list[int]) -> NDArray[np.intp]:
     return np.cumsum([0, *counts]).astype(np.intp)
 
 
-def placed_of(elements: Iterable[Element]) -> Placed:
-    """The library objects among elements.
-
-    Parameters
-    ----------
-    elements : iterable of Element
-        Of a layout.
-
-    Returns
-    -------
-    Placed
-    """
-    found = [i for i in instances(elements) if isinstance(i.mesh, str)]
-    low, size = np.zeros((len(found), 3)), np.zeros((len(found), 3))
-    for k, i in enumerate(found):
-        if i.element.footprint is not None:
-            least, most = np.min(i.element.footprint, axis=0), np.max(i.element.footprint, axis=0)
-            low[k, :2], size[k, :2] = least, most - least
-            size[k, 2] = (most - least).min()
-    return Placed(
-        np.array([i.frame.matrix for i in found]).reshape(-1, 4, 4),
-        np.array([i.scale for i in found], float).reshape(-1, 3),
-        low,
-        size,
-        [str(i.mesh) for i in found],
-        [i.element.label for i in found],
-        [i.element.node for i in found],
-        [i.element.key for i in found],
-    )
-
-
-def product_of(applied: Applied, parcel_of: Mapping[str, str], facts: Mapping[str, Any]) -> Product:
+def product_of(applied: Applied, parcel_of: Mapping[str, str], facts: Mapping[str, Any], outlines: Outlines) -> Product:
     """What a tree has built, as arrays.
 
     Parameters
@@ -258,6 +202,8 @@ def product_of(applied: Applied, parcel_of: Mapping[str, str], facts: Mapping[st
         By the id of a polygon of the ground, the parcel that it belongs to.
     facts : mapping
         The product's.
+    outlines : mapping
+        Of the library objects that are bent, as `placed.outlines_of` returns them.
 
     Returns
     -------
@@ -274,7 +220,7 @@ def product_of(applied: Applied, parcel_of: Mapping[str, str], facts: Mapping[st
         return parcel_of.get(at, "")
 
     meshes = ((e, e.mesh, parcel(e)) for e in applied if isinstance(e.mesh, Mesh))
-    return Product(masses_of(meshes), placed_of(applied.layout.elements), facts)
+    return Product(masses_of(meshes), placed_of(applied.layout.elements, outlines), facts)
 
 
 def together(products: Iterable[Product]) -> Product:
@@ -290,23 +236,14 @@ def together(products: Iterable[Product]) -> Product:
         Its facts are added up.
     """
     given = list(products)
-    m, p = [g.masses for g in given], [g.placed for g in given]
-
+    m = [g.masses for g in given]
     masses = Masses(
         joined([one.mesh for one in m]),
         _starts([n for one in m for n in np.diff(one.vertex_start).tolist()]),
         _starts([n for one in m for n in np.diff(one.face_start).tolist()]),
         *([text for one in m for text in getattr(one, name)] for name in ("names", "labels", "parcels")),
     )
-    nothing = np.zeros((0, 3))
-    placed = Placed(
-        np.concatenate([np.zeros((0, 4, 4)), *(one.places for one in p)]),
-        np.concatenate([nothing, *(one.scales for one in p)]),
-        np.concatenate([nothing, *(one.low for one in p)]),
-        np.concatenate([nothing, *(one.size for one in p)]),
-        *([text for one in p for text in getattr(one, name)] for name in ("meshes", "labels", "nodes", "keys")),
-    )
-    return Product(masses, placed, added([g.facts for g in given]))
+    return Product(masses, placed_together([g.placed for g in given]), added([g.facts for g in given]))
 
 
 def added(facts: Iterable[Mapping[str, Any]]) -> dict[str, Any]:

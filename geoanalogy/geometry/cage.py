@@ -8,6 +8,25 @@ Array = NDArray[np.float64]
 #: Distance from an outline, in sizes of it, below which a point lies on it: its coordinates are those of its edge.
 ON_EDGE = 1e-9
 
+#: Difference of outlines, in sizes of the outline, below which nothing is bent: equal polygons differ by rounding.
+UNBENT = 1e-4
+
+
+def is_bent(outline: Array, ring: Array) -> bool:
+    """Whether an outline has been bent to a ring.
+
+    Parameters
+    ----------
+    outline : ndarray of shape (n, 2)
+    ring : ndarray of shape (m, 2)
+        Vertex by vertex the bent outline; with another number of vertices it is none of these.
+
+    Returns
+    -------
+    bool
+    """
+    return ring.shape == outline.shape and bool(np.abs(ring - outline).max() > UNBENT * np.ptp(outline, axis=0).max())
+
 
 def cage_coordinates(points: ArrayLike, ring: ArrayLike) -> Array:
     """The mean value coordinates of points.

@@ -79,14 +79,17 @@ def joined(meshes: Sequence[Mesh]) -> Mesh:
     Returns
     -------
     Mesh
+        Its arrays have the types that those of the given ones have.
     """
+    if not meshes:
+        return Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.intp), np.zeros((0, 3, 2)), (), np.zeros(0, np.intp))
     materials = tuple(dict.fromkeys(name for mesh in meshes for name in mesh.materials))
     starts = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
-    index = [np.array([materials.index(name) for name in mesh.materials], dtype=np.intp) for mesh in meshes]
+    index = [np.array([materials.index(name) for name in m.materials], m.material_index.dtype) for m in meshes]
     return Mesh(
-        np.concatenate([np.zeros((0, 3)), *(mesh.vertices for mesh in meshes)]),
-        np.concatenate([np.zeros((0, 3), np.intp), *(m.faces + s for m, s in zip(meshes, starts, strict=False))]),
-        np.concatenate([np.zeros((0, 3, 2)), *(mesh.uv for mesh in meshes)]),
+        np.concatenate([mesh.vertices for mesh in meshes]),
+        np.concatenate([m.faces + m.faces.dtype.type(s) for m, s in zip(meshes, starts, strict=False)]),
+        np.concatenate([mesh.uv for mesh in meshes]),
         materials,
-        np.concatenate([np.zeros(0, np.intp), *(i[m.material_index] for i, m in zip(index, meshes, strict=True))]),
+        np.concatenate([i[m.material_index] for i, m in zip(index, meshes, strict=True)]),
     )

@@ -54,6 +54,14 @@ class GroupPlacement(Placing):
                 f"{len(self.group.objects)} objects of the group; give one of each per object"
             )
 
+    @property
+    def bent_outlines(self) -> dict[str, NDArray[np.float64]]:
+        """By the library object: its outline before it is bent, in the frame of its pose; empty where none is bent."""
+        if self.group.options.shape != "outline":
+            return {}
+        pairs = zip(self.meshes, self.group.outlines, strict=True)
+        return {mesh: outline for mesh, outline in pairs if outline is not None}
+
     def propose(self, layout: Layout, node: str, seed: int) -> Stepper[tuple[Element, ...]]:
         """Take the group to every polygon; importance is 0 where a polygon has no room for the coordinates."""
         moved = yield from self.group.steps(layout.scene)

@@ -46,6 +46,18 @@ def files(tmp_path, request):
     return tmp_path
 
 
+def built_on(ground, recorded):
+    """What a tree builds on parcels, as a product."""
+    applied = recorded.apply(ground, seed=7)
+    facts = {"parcels": [], "elements": len(applied), "problems": [], "known": 0, "surfaces": 0, "seconds": {}}
+    outlines = engine("batch.placed").outlines_of(recorded)
+    return engine("batch.product").product_of(applied, {}, facts, outlines)
+
+
+def fill(ground, *products, library=None):
+    return bridge("writing.buildings").fill(bpy.context.scene, ground, products, library)
+
+
 def apply(folder, *options):
     names = ["--tree", str(folder / "tree.json"), "--parcels", str(folder / "plots.geojson"), "--seed", "7"]
     return run(batch_command("apply", *names, *options), folder)
@@ -184,11 +196,9 @@ def test_an_earlier_output_stays_where_writing_fails(files, monkeypatch):
         raise OSError("no space left on device")
 
     monkeypatch.setattr(buildings, "draw_picture", full)
-    ground, applied = plots(), tree().apply(plots(), seed=7)
-    facts = {"parcels": [], "elements": 4, "problems": [], "known": 0, "surfaces": 0, "seconds": {}}
-    product = engine("batch.product").product_of(applied, {}, facts)
+    ground = plots()
     with pytest.raises(OSError, match="no space left on device"):
-        buildings.write(ground, [("tile 001", product)], buildings.Results(output, picture))
+        buildings.write(ground, [("tile 001", built_on(ground, tree()))], buildings.Results(output, picture))
     assert output.read_bytes() == picture.read_bytes() == b"earlier"
     assert not list(files.glob("*.part*"))
 
@@ -214,8 +224,7 @@ def test_a_file_that_is_cut_off_is_no_result(files):
 def test_a_tree_of_the_map_is_an_instance(files):
     polygon = engine().Polygon
     ground = engine().Scene([polygon([(0, 0), (4, 0), (4, 4), (0, 4)], label="statue", id="t")])
-    together = engine("batch.product").together
-    built = bridge("writing.buildings").fill(bpy.context.scene, ground, together([]), files / "library.blend")
+    built = fill(ground, library=files / "library.blend")
     bpy.context.view_layer.update()
     ((name, place),) = shown()
     assert built.problems == () and name == "statue" and "Parcels" not in bpy.context.scene.objects
@@ -229,7 +238,10 @@ def test_rotations_are_kept_exactly_by_many_instances(files):
     axes[:3] = [np.diag(d) for d in ((1, -1, -1), (-1, 1, -1), (-1, -1, 1))]
     places, sizes = rng.normal(size=(500, 3)), rng.uniform(0.5, 2.0, (500, 3))
     source = box("statue", (1.0, 1.0, 1.0))
-    made = bridge("writing.scattering").scattered("many", source, places, axes, sizes)
+    scattering = bridge("writing.scattering")
+    turns = scattering.quaternions(axes)
+    single = (np.asarray(a, np.float32) for a in (places, turns, sizes))
+    made = scattering.scattered("many", source, *single)
     bpy.context.scene.collection.objects.link(made)
     bpy.context.view_layer.update()
     found = np.array([place for _, place in shown()])
@@ -238,9 +250,7 @@ def test_rotations_are_kept_exactly_by_many_instances(files):
 
 
 def test_the_cameras_see_everything(files):
-    buildings = bridge("writing.buildings")
-    applied = tree().apply(plots(), seed=7)
-    buildings.build(bpy.context.scene, applied, None)
+    fill(plots(), built_on(plots(), tree()))
     scene = bpy.context.scene
     bpy.context.view_layer.update()
     from bpy_extras.object_utils import world_to_camera_view
@@ -256,8 +266,7 @@ def test_the_cameras_see_everything(files):
 
 
 def test_parcels_reach_down_to_the_ground(files):
-    buildings = bridge("writing.buildings")
-    buildings.build(bpy.context.scene, tree().apply(plots(), seed=7), None)
+    fill(plots(), built_on(plots(), tree()))
     parcels, ground = (bpy.context.scene.objects[name].data for name in ("Parcels", "Ground"))
     heights = sorted({round(v.co.z, 6) for v in parcels.vertices})
     assert heights == pytest.approx([-0.06, -0.03], abs=1e-6) and ground.vertices[0].co.z == pytest.approx(-0.06)
@@ -270,9 +279,8 @@ def test_parcels_reach_down_to_the_ground(files):
 
 
 def test_an_empty_plan_is_refused():
-    applied = tree().apply(engine().Scene([]), seed=7)
     with pytest.raises(engine("errors").InputError, match="nothing was built and there are no parcels"):
-        bridge("writing.buildings").build(bpy.context.scene, applied, None)
+        fill(engine().Scene([]), built_on(engine().Scene([]), tree()))
 
 
 @pytest.mark.parametrize(

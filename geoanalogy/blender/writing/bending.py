@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...geometry.cage import cage_coordinates
+from ...geometry.cage import cage_coordinates, is_bent
 from ...operations.element import Element
 from ...operations.group_placement import GroupPlacement
 from .. import names
@@ -15,8 +15,8 @@ from ..tree.store import engine_node
 
 Array = NDArray[np.float64]
 
-#: Difference of outlines, in sizes of the outline, below which nothing is bent: equal polygons differ by rounding.
-UNBENT = 1e-4
+#: Types of the objects that can be bent.
+BENDING = ("MESH", "CURVE")
 
 
 class Bender:
@@ -48,11 +48,8 @@ class Bender:
         stored = node.get(names.OPERATION)
         if not hasattr(stored, "items") or stored.get("type") != GroupPlacement.type:
             return None
-        operation = engine_node(node).operation
-        if operation.group.options.shape != "outline":
-            return None
-        pairs = zip(operation.meshes, operation.group.outlines, strict=True)
-        return cls({mesh: outline for mesh, outline in pairs if outline is not None})
+        outlines = engine_node(node).operation.bent_outlines
+        return cls(outlines) if outlines else None
 
     def bend(self, made: bpy.types.Object, element: Element, rest: Array) -> None:
         """Bend a result to its element's outline.
@@ -66,22 +63,42 @@ class Bender:
             From the object's coordinates to the frame of its pose.
         """
         outline = self._outlines.get(element.mesh)
-        if outline is None or made.type not in ("MESH", "CURVE") or element.footprint is None:
+        if outline is None or made.type not in BENDING or element.footprint is None:
             return
         bent = np.array(element.footprint)
         # The example itself has its own outline, without the vertices between its corners.
-        if bent.shape != outline.shape or np.abs(bent - outline).max() <= UNBENT * np.ptp(outline, axis=0).max():
+        if not is_bent(outline, bent):
             return
         if abs(np.linalg.det(rest)) == 0.0:
             return  # it is flat, and cannot be told from where its points are
         kind = (element.mesh, element.footprint)
         if kind not in self._made:
-            data = made.data.copy()
-            data[names.KEY] = element.key
-            for points, name in _points_of(data):
-                _bend_points(points, name, outline, bent, rest)
-            self._made[kind] = data
+            self._made[kind] = bent_data(made.data, outline, bent, rest)
+            self._made[kind][names.KEY] = element.key
         made.data = self._made[kind]
+
+
+def bent_data(data: bpy.types.ID, outline: Array, bent: Array, rest: Array) -> bpy.types.ID:
+    """A mesh or a curve bent as its outline is.
+
+    Parameters
+    ----------
+    data : bpy.types.Mesh or bpy.types.Curve
+        Stays as it is.
+    outline, bent : ndarray of shape (n, 2)
+        Vertex by vertex, in the frame of a pose.
+    rest : ndarray of shape (4, 4)
+        From the data's coordinates to that frame.
+
+    Returns
+    -------
+    bpy.types.ID
+        A copy.
+    """
+    made = data.copy()
+    for points, name in _points_of(made):
+        _bend_points(points, name, outline, bent, rest)
+    return made
 
 
 def _points_of(data: bpy.types.ID) -> list[tuple[bpy.types.bpy_prop_collection, str]]:

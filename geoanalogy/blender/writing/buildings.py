@@ -1,7 +1,6 @@
 """What an operations tree has built, as a .blend: masses as one mesh per label, library objects as instances."""
 
 import os
-import zlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -11,22 +10,20 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...batch.product import Masses, Product, product_of, together
+from ...batch.product import Product
 from ...errors import InputError
 from ...geometry.extrusion import triangulated
 from ...geometry.mesh import Mesh, joined
 from ...geometry.scene import Scene
-from ...operations.applied import Applied
 from .. import names
 from ..holders import ensure_holder
-from ..names import UNLABELLED
+from .extent import Boxes, outermost
+from .gathering import Gathered
 from .library_objects import put
 from .outdoors import furnish
 from .picture import draw_picture
 from .saving import save_copy, whole
 from .shading import FINISHES, VARIATION, material
-
-Array = NDArray[np.float64]
 
 #: How far parcels lie below what stands on them, scene units: flat elements at height 0 are seen.
 DROP = 0.03
@@ -117,7 +114,7 @@ def write(
     if results.tiles is None:
         report(1.0, "writing")
         scene = _fresh()
-        built = fill(scene, ground, together(product for _, product in products), results.library)
+        built = fill(scene, ground, (product for _, product in products), results.library)
     else:
         scene, built = _linked(ground, products, results, report)
     for name, value in (properties or {}).items():
@@ -144,12 +141,12 @@ def _linked(
     folder = results.tiles
     folder.mkdir(parents=True, exist_ok=True)
     written: list[tuple[str, Path]] = []
-    points, problems, instances = [], {}, 0
+    boxes, problems, instances = [], {}, 0
     for name, product in products:
         report(1.0, f"writing {name}")
         scene = _fresh()
-        built, extent, _ = _buildings(scene, product, results.library, Scene([]))
-        points.append(extent)
+        built, there, _ = _buildings(scene, Gathered([product]), results.library, Scene([]))
+        boxes += there
         problems.update(dict.fromkeys(built.problems))
         instances += built.instances
         whole = bpy.data.collections.new(name)
@@ -169,37 +166,12 @@ def _linked(
     for library in bpy.data.libraries:
         if base is not None and Path(library.filepath).parent == folder:
             library.filepath = f"//{Path(os.path.relpath(library.filepath, base.parent)).as_posix()}"
-    extent, _, standing = put(scene, together([]).placed, results.library, ground)
-    points += [extent, _surroundings(scene, ground, standing)]
-    _place_to_look_from(scene, points, ground)
+    there, _, standing = put(scene, Gathered([]), results.library, ground)
+    _place_to_look_from(scene, [*boxes, *there, _surroundings(scene, ground, standing)], ground)
     return scene, Built(len(written), instances, tuple(problems))
 
 
-def build(scene: bpy.types.Scene, applied: Applied, library: Path | None) -> Built:
-    """Fill a scene with what an operations tree has built, and with what it takes to look at it.
-
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-        An empty one.
-    applied : Applied
-    library : Path or None
-
-    Returns
-    -------
-    Built
-
-    Raises
-    ------
-    InputError
-        Where the library cannot be read, or nothing was built that could be drawn.
-    """
-    ground = applied.layout.ground
-    facts = {"parcels": [], "elements": len(applied), "problems": [], "known": 0, "surfaces": 0, "seconds": {}}
-    return fill(scene, ground, product_of(applied, {str(p.id): str(p.id) for p in ground.polygons}, facts), library)
-
-
-def fill(scene: bpy.types.Scene, ground: Scene, product: Product, library: Path | None) -> Built:
+def fill(scene: bpy.types.Scene, ground: Scene, products: Iterable[Product], library: Path | None) -> Built:
     """Fill a scene with what has been built on parcels, and with what it takes to look at it.
 
     Parameters
@@ -207,7 +179,8 @@ def fill(scene: bpy.types.Scene, ground: Scene, product: Product, library: Path 
     scene : bpy.types.Scene
         An empty one.
     ground : Scene
-    product : Product
+    products : iterable of Product
+        Each is let go before the next one is asked for.
     library : Path or None
 
     Returns
@@ -219,62 +192,42 @@ def fill(scene: bpy.types.Scene, ground: Scene, product: Product, library: Path 
     InputError
         Where the library cannot be read, or nothing was built that could be drawn.
     """
-    built, extent, standing = _buildings(scene, product, library, ground)
-    _place_to_look_from(scene, [extent, _surroundings(scene, ground, standing)], ground)
+    built, boxes, standing = _buildings(scene, Gathered(products), library, ground)
+    _place_to_look_from(scene, [*boxes, _surroundings(scene, ground, standing)], ground)
     return built
 
 
 def _buildings(
-    scene: bpy.types.Scene, product: Product, library: Path | None, ground: Scene
-) -> tuple[Built, Array, frozenset[str]]:
+    scene: bpy.types.Scene, gathered: Gathered, library: Path | None, ground: Scene
+) -> tuple[Built, list[Boxes], frozenset[str]]:
     """Put masses and library objects into the collections of their labels.
 
-    Returns also the points that they lie within, and which of them stand for polygons of the ground.
+    Returns also the boxes that they lie within, and which of them stand for polygons of the ground.
     """
-    masses = product.masses
-    by_label: dict[str, list[int]] = {}
-    for k, label in enumerate(masses.labels):
-        by_label.setdefault(label or UNLABELLED, []).append(k)
-    for label, those in by_label.items():
-        mass = bpy.data.objects.new(label, _mass(label, masses, those))
+    count = 0
+    for label, mesh, lots in gathered.masses():
+        data = mesh_data(label, mesh)
+        data.attributes.new(VARIATION, "FLOAT", "FACE").data.foreach_set("value", lots)
+        mass = bpy.data.objects.new(label, data)
         mass[names.LABEL] = label
         ensure_holder(scene.collection, label).objects.link(mass)
-    extent, problems, standing = put(scene, product.placed, library, ground)
-    return Built(len(by_label), len(product.placed), problems), np.concatenate([_corners(masses), extent]), standing
+        count += 1
+    there, problems, standing = put(scene, gathered, library, ground)
+    return Built(count, gathered.instances, problems), [*gathered.boxes, *there], standing
 
 
-def _mass(label: str, masses: Masses, those: Sequence[int]) -> bpy.types.Mesh:
-    """The meshes of a label as one, whose faces know which parcel they are of."""
-    singles = [masses.single(k) for k in those]
-    made = mesh_data(label, joined(singles))
-    lots = [zlib.crc32(masses.parcels[k].encode()) / 0xFFFFFFFF for k in those]
-    varied = np.repeat(np.array(lots, np.float32), [len(single.faces) for single in singles])
-    made.attributes.new(VARIATION, "FLOAT", "FACE").data.foreach_set("value", varied)
-    return made
-
-
-def _corners(masses: Masses) -> Array:
-    """Corners of the boxes of meshes."""
-    if not len(masses) or not len(masses.mesh.vertices):
-        return np.zeros((0, 3))
-    starts = masses.vertex_start[:-1][np.diff(masses.vertex_start) > 0]
-    low = np.minimum.reduceat(masses.mesh.vertices, starts)
-    high = np.maximum.reduceat(masses.mesh.vertices, starts)
-    choice = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)])
-    return (low[:, None] + choice * (high - low)[:, None]).reshape(-1, 3)
-
-
-def _surroundings(scene: bpy.types.Scene, ground: Scene, standing: frozenset[str]) -> Array:
-    """The parcels but those that something stands for, and the points that they lie within."""
+def _surroundings(scene: bpy.types.Scene, ground: Scene, standing: frozenset[str]) -> Boxes:
+    """The parcels but those that something stands for, and boxes that they lie within."""
     parcels = _parcels(ground, standing)
     if len(parcels.faces):
         made = bpy.data.objects.new("Parcels", mesh_data("Parcels", parcels))
         ensure_holder(scene.collection, SURROUNDINGS).objects.link(made)
-    return np.maximum(parcels.vertices, (-np.inf, -np.inf, -DROP))
+    points = np.maximum(parcels.vertices, (-np.inf, -np.inf, -DROP))
+    return points, points
 
 
-def _place_to_look_from(scene: bpy.types.Scene, points: Sequence[Array], ground: Scene) -> None:
-    everything = np.concatenate(points)
+def _place_to_look_from(scene: bpy.types.Scene, boxes: Sequence[Boxes], ground: Scene) -> None:
+    everything = outermost(boxes)
     if not len(everything):
         raise InputError("nothing was built and there are no parcels; check the labels of the parcels")
     # Between the streets of a map grass grows; a plan without any stands on the street itself.
@@ -296,17 +249,27 @@ def mesh_data(name: str, mesh: Mesh) -> bpy.types.Mesh:
     """
     made = bpy.data.meshes.new(name)
     made.vertices.add(len(mesh.vertices))
-    made.vertices.foreach_set("co", mesh.vertices.astype(np.float32).ravel())
     made.loops.add(3 * len(mesh.faces))
-    made.loops.foreach_set("vertex_index", mesh.faces.astype(np.int32).ravel())
     made.polygons.add(len(mesh.faces))
     made.polygons.foreach_set("loop_start", np.arange(0, 3 * len(mesh.faces), 3, dtype=np.int32))
-    made.polygons.foreach_set("material_index", mesh.material_index.astype(np.int32))
-    made.uv_layers.new(name="UVMap").data.foreach_set("uv", mesh.uv.astype(np.float32).ravel())
+    made.uv_layers.new(name="UVMap")
+    # Attributes take an array at once; vertices, corners and faces take it value by value, some fifty times as long.
+    for attribute, (kind, domain, value, values) in {
+        "position": ("FLOAT_VECTOR", "POINT", "vector", np.asarray(mesh.vertices, np.float32)),
+        ".corner_vert": ("INT", "CORNER", "value", np.asarray(mesh.faces, np.int32)),
+        "UVMap": ("FLOAT2", "CORNER", "vector", np.asarray(mesh.uv, np.float32)),
+        "material_index": ("INT", "FACE", "value", np.asarray(mesh.material_index, np.int32)),
+        "sharp_face": ("BOOLEAN", "FACE", "value", np.ones(len(mesh.faces), bool)),
+    }.items():
+        layer = made.attributes.get(attribute) or made.attributes.new(attribute, kind, domain)
+        layer.data.foreach_set(value, values.ravel())
     for finish in mesh.materials:
         made.materials.append(material(finish))
     made.update(calc_edges=True)
-    made.shade_flat()
+    # Blender leaves open which of the edges are selected; without any of it, equal scenes are equal files.
+    for attribute in (".select_vert", ".select_edge", ".select_poly"):
+        if attribute in made.attributes:
+            made.attributes.remove(made.attributes[attribute])
     return made
 
 

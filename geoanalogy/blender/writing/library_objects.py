@@ -5,74 +5,27 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
-from ...batch.product import Placed
 from ...errors import InputError
 from ...geometry.scene import Scene
 from .. import names
 from ..holders import ensure_holder
-from .scattering import scattered
+from .bending import BENDING, bent_data
+from .extent import CUBE, Boxes
+from .gathering import Gathered, Kind
+from .scattering import Single, scattered
 from .shading import material
-
-Array = NDArray[np.float64]
-
-#: Size of what stands for a missing library object that has no outline, scene units.
-POINT_SIZE = 0.5
-
-#: Thickness of what stands for a missing library object, in proportion to the shorter side of its outline: on level
-#: surfaces a box, on others a panel.
-BOX, PANEL = 1.0, 0.1
 
 #: The collection of the library objects, which is not shown itself.
 LIBRARY = "Library"
 
-#: Corners and outward faces of the unit cube that stands for missing library objects.
-CUBE = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
+#: Outward faces of the unit cube that stands for missing library objects.
 CUBE_FACES = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
 
 
-def boxes(placed: Placed) -> tuple[Array, Array]:
-    """What stands for library objects that are not there, in their own coordinates.
-
-    Parameters
-    ----------
-    placed : Placed
-
-    Returns
-    -------
-    low, size : ndarray of shape (n, 3)
-        Lower corner and extents.
-    """
-    low, size = placed.low.copy(), placed.size.copy()
-    level = np.abs(placed.places[:, 2, 2]) > np.sqrt(0.5)
-    size[:, 2] *= np.where(level, BOX, PANEL)
-    unknown = ~placed.size.any(axis=1)
-    size[unknown] = POINT_SIZE
-    low[unknown] = (-POINT_SIZE / 2, -POINT_SIZE / 2, 0.0)
-    return low, size
-
-
-def corners(placed: Placed) -> Array:
-    """Corners in space of the boxes that library objects are taken to fill.
-
-    Parameters
-    ----------
-    placed : Placed
-
-    Returns
-    -------
-    ndarray of shape (8 n, 3)
-    """
-    low, size = boxes(placed)
-    inside = (low[:, None] + CUBE * size[:, None]) * placed.scales[:, None]
-    turned = np.einsum("nij,nkj->nki", placed.places[:, :3, :3], inside)
-    return (turned + placed.places[:, None, :3, 3]).reshape(-1, 3)
-
-
 def put(
-    scene: bpy.types.Scene, placed: Placed, library: Path | None, ground: Scene
-) -> tuple[Array, tuple[str, ...], frozenset[str]]:
+    scene: bpy.types.Scene, gathered: Gathered, library: Path | None, ground: Scene
+) -> tuple[list[Boxes], tuple[str, ...], frozenset[str]]:
     """Put library objects in their places, as instances on points in a collection per label.
 
     A polygon of the ground whose label is the name of a library object is a place for it: a tree of a map.
@@ -80,15 +33,15 @@ def put(
     Parameters
     ----------
     scene : bpy.types.Scene
-    placed : Placed
+    gathered : Gathered
     library : Path or None
         A .blend with the library objects.
     ground : Scene
 
     Returns
     -------
-    ndarray of shape (n, 3)
-        Points that all of it lies within.
+    list of Boxes
+        That those on the ground lie within.
     tuple of str
         A sentence for every library object that is missing.
     frozenset of str
@@ -99,56 +52,59 @@ def put(
     InputError
         Where the library cannot be read.
     """
-    wanted = dict.fromkeys([*placed.meshes, *(p.label for p in ground.polygons if p.label)])
+    wanted = dict.fromkeys([*gathered.meshes, *(p.label for p in ground.polygons if p.label)])
     sources = {} if library is None else library_objects(library, wanted)
     for source in sources.values():
         shelf(scene).objects.link(source)
     problems: dict[str, str] = {}
-    kinds = np.array([f"{mesh}\0{label}" for mesh, label in zip(placed.meshes, placed.labels, strict=True)])
-    low, size = boxes(placed)
-    for kind in dict.fromkeys(kinds.tolist()):
-        those = np.flatnonzero(kinds == kind)
-        name, label = kind.split("\0")
-        places, scales = placed.places[those], placed.scales[those]
-        turns, positions = places[:, :3, :3], places[:, :3, 3]
-        source = sources.get(name)
+    for kind, points in gathered.placed():
+        source = sources.get(kind.mesh)
         if source is None:
             where = "--library names no file" if library is None else f"{library} has no such object"
-            problems[name] = (
-                f"node {placed.nodes[those[0]]!r}: the library object {name!r} is missing ({where}); plain boxes take "
+            problems[kind.mesh] = (
+                f"node {kind.node!r}: the library object {kind.mesh!r} is missing ({where}); plain boxes take "
                 "its places, add it to the library"
             )
-            source = _cube(scene, name, label)
-            positions = positions + np.einsum("nij,nj->ni", turns, low[those] * scales)
-            scales = scales * size[those]
-        _show(scene, label or names.UNLABELLED, source, positions, turns, scales)
+            cube = _cube(scene, kind.mesh, kind.label)
+            _show(scene, kind.label or names.UNLABELLED, cube, points.corners, points.turns, points.sizes)
+            continue
+        if kind.bend and source.type in BENDING:
+            source = _bent(scene, source, kind)
+        _show(scene, kind.label or names.UNLABELLED, source, points.positions, points.turns, points.scales)
     standing = [_on_the_ground(scene, ground, name, source) for name, source in sources.items()]
-    return np.concatenate([corners(placed), *standing]), tuple(problems.values()), frozenset(sources)
+    return standing, tuple(problems.values()), frozenset(sources)
+
+
+def _bent(scene: bpy.types.Scene, source: bpy.types.Object, kind: Kind) -> bpy.types.Object:
+    """A library object that is bent as the outline of a kind."""
+    made = source.copy()
+    made.data = bent_data(source.data, *kind.outlines, np.eye(4))
+    shelf(scene).objects.link(made)
+    return made
 
 
 def _show(
-    scene: bpy.types.Scene, label: str, source: bpy.types.Object, positions: Array, turns: Array, scales: Array
+    scene: bpy.types.Scene, label: str, source: bpy.types.Object, positions: Single, turns: Single, scales: Single
 ) -> None:
     made = scattered(label if source.name == label else f"{label}: {source.name}", source, positions, turns, scales)
     made[names.LABEL] = label
     ensure_holder(scene.collection, label).objects.link(made)
 
 
-def _on_the_ground(scene: bpy.types.Scene, ground: Scene, name: str, source: bpy.types.Object) -> Array:
-    """Show a library object on the polygons that have its name for a label, each as large as that; the corners."""
+def _on_the_ground(scene: bpy.types.Scene, ground: Scene, name: str, source: bpy.types.Object) -> Boxes:
+    """Show a library object on the polygons that have its name for a label, each as large as that; the boxes."""
     there = [p for p in ground.polygons if p.label == name]
     if not there:
-        return np.zeros((0, 3))
+        return np.zeros((0, 3)), np.zeros((0, 3))
     extent = max(*source.dimensions[:2], 1e-6)
     positions = np.array([(*p.centroid, 0.0) for p in there])
-    angles = np.array([p.main_orientation for p in there])
-    turns = np.zeros((len(there), 3, 3))
-    turns[:, 0, 0] = turns[:, 1, 1] = np.cos(angles)
-    turns[:, 1, 0], turns[:, 0, 1], turns[:, 2, 2] = np.sin(angles), -np.sin(angles), 1.0
-    scales = np.array([float((p.bounds[2:] - p.bounds[:2]).max()) / extent for p in there])
-    _show(scene, name, source, positions, turns, np.repeat(scales[:, None], 3, axis=1))
-    reach = scales[:, None, None] * (CUBE - (0.5, 0.5, 0.0)) * (extent, extent, source.dimensions[2])
-    return (positions[:, None] + reach).reshape(-1, 3)
+    half = np.array([p.main_orientation for p in there]) / 2
+    turns = np.column_stack([np.cos(half), np.zeros((len(there), 2)), np.sin(half)])
+    scales = np.array([[float((p.bounds[2:] - p.bounds[:2]).max()) / extent] for p in there])
+    arrays = (np.asarray(a, np.float32) for a in (positions, turns, np.repeat(scales, 3, axis=1)))
+    _show(scene, name, source, *arrays)
+    reach = scales * (extent / 2, extent / 2, 0.0)
+    return positions - reach, positions + reach + scales * (0.0, 0.0, source.dimensions[2])
 
 
 def shelf(scene: bpy.types.Scene) -> bpy.types.Collection:

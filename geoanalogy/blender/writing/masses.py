@@ -14,9 +14,10 @@ from ...operations.element import Element
 from ...operations.layout import Layout
 from .. import names
 from ..holders import ensure_holder_with
+from ..names import UNLABELLED
 from ..reading.ground import results_collection
 from ..reading.planes import Plane
-from .buildings import UNLABELLED, mesh_data
+from .buildings import mesh_data
 from .instances import ensure_results_collection
 
 Array = NDArray[np.float64]

@@ -74,8 +74,9 @@ def furnish(
     background.inputs["Strength"].default_value = SKY
 
     scene.view_settings.look = "AgX - Medium High Contrast"
-    scene.render.resolution_x, scene.render.resolution_y = WIDTH, round(WIDTH * _proportion(points))
-    cameras = [_camera(name, turn, points, _proportion(points)) for name, turn in VIEWS.items()]
+    proportion = _proportion(points)
+    scene.render.resolution_x, scene.render.resolution_y = WIDTH, round(WIDTH * proportion)
+    cameras = [_camera(name, turn, points, proportion) for name, turn in VIEWS.items()]
     for camera in cameras:
         holder.objects.link(camera)
     scene.camera = cameras[0]

@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Single = NDArray[np.float32]
 
 #: Name of the node group, and of the attributes of the points.
 GROUP, ROTATION, SCALE = "GeoAnalogy instances", "rotation", "scale"
@@ -45,7 +46,7 @@ def quaternions(matrices: Array) -> Array:
 
 
 def scattered(
-    name: str, source: bpy.types.Object, positions: Array, rotations: Array, scales: Array
+    name: str, source: bpy.types.Object, positions: Single, rotations: Single, scales: Single
 ) -> bpy.types.Object:
     """An object that shows another one at many places.
 
@@ -55,7 +56,8 @@ def scattered(
     source : bpy.types.Object
         What is shown; its own place does not matter.
     positions : ndarray of shape (n, 3)
-    rotations : ndarray of shape (n, 3, 3)
+    rotations : ndarray of shape (n, 4)
+        Unit quaternions.
     scales : ndarray of shape (n, 3)
 
     Returns
@@ -65,11 +67,11 @@ def scattered(
     """
     points = bpy.data.meshes.new(name)
     points.vertices.add(len(positions))
-    points.vertices.foreach_set("co", np.asarray(positions, np.float32).ravel())
+    points.attributes["position"].data.foreach_set("vector", positions.ravel())
     turned = points.attributes.new(ROTATION, "QUATERNION", "POINT")
-    turned.data.foreach_set("value", quaternions(rotations).astype(np.float32).ravel())
+    turned.data.foreach_set("value", rotations.ravel())
     sized = points.attributes.new(SCALE, "FLOAT_VECTOR", "POINT")
-    sized.data.foreach_set("vector", np.asarray(scales, np.float32).ravel())
+    sized.data.foreach_set("vector", scales.ravel())
     points.update()
     made = bpy.data.objects.new(name, points)
     modifier = made.modifiers.new("Instances", "NODES")
