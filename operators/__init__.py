@@ -45,6 +45,7 @@ MODULES = (
     ".remove_operation",
     ".move_operation",
     ".mute_operation",
+    ".own_tree",
 )
 
 

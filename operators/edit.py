@@ -28,6 +28,25 @@ class Edit:
         return {"FINISHED"}
 
 
+class AsksForLabel:
+    """An operator that asks for a label first; whoever clicks it can type at once."""
+
+    #: What else it asks for.
+    asked: tuple[str, ...] = ()
+
+    def invoke(self, context, event):
+        return context.window_manager.invoke_props_dialog(self)
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        column = layout.column()
+        column.activate_init = True
+        column.prop(self, "label")
+        for name in self.asked:
+            layout.prop(self, name)
+
+
 class LongEdit:
     """An operator that works for a while: modal in a window, at once in the background and in scripts."""
 

@@ -4,10 +4,10 @@ import bpy
 from bpy.props import StringProperty
 
 from ..geoanalogy.blender.writing.face_labels import label_faces
-from .edit import Edit
+from .edit import AsksForLabel, Edit
 
 
-class GEOANALOGY_OT_label_faces(Edit, bpy.types.Operator):
+class GEOANALOGY_OT_label_faces(AsksForLabel, Edit, bpy.types.Operator):
     """Make surfaces of the selected faces of a mesh, of any direction: operations then work on them as on walls"""
 
     bl_idname = "geoanalogy.label_faces"
@@ -21,9 +21,6 @@ class GEOANALOGY_OT_label_faces(Edit, bpy.types.Operator):
             cls.poll_message_set("Go to Object Mode or Edit Mode first")
             return False
         return True
-
-    def invoke(self, context, event):
-        return context.window_manager.invoke_props_dialog(self)
 
     def edit(self, context):
         """Label them."""

@@ -4,10 +4,10 @@ import bpy
 from bpy.props import StringProperty
 
 from ..geoanalogy.blender.plan_making import polygons_from_lines
-from .edit import Edit, needs_object_mode
+from .edit import AsksForLabel, Edit, needs_object_mode
 
 
-class GEOANALOGY_OT_make_polygons(Edit, bpy.types.Operator):
+class GEOANALOGY_OT_make_polygons(AsksForLabel, Edit, bpy.types.Operator):
     """Make a labelled polygon of every closed curve, stroke or face of the selected objects"""
 
     bl_idname = "geoanalogy.make_polygons"
@@ -18,9 +18,6 @@ class GEOANALOGY_OT_make_polygons(Edit, bpy.types.Operator):
     @classmethod
     def poll(cls, context):
         return needs_object_mode(cls, context)
-
-    def invoke(self, context, event):
-        return context.window_manager.invoke_props_dialog(self)
 
     def edit(self, context):
         """Make the polygons."""

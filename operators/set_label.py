@@ -5,10 +5,10 @@ from bpy.props import EnumProperty, StringProperty
 
 from ..geoanalogy.blender import names
 from ..geoanalogy.blender.plan_making import set_label
-from .edit import Edit, needs_object_mode
+from .edit import AsksForLabel, Edit, needs_object_mode
 
 
-class GEOANALOGY_OT_set_label(Edit, bpy.types.Operator):
+class GEOANALOGY_OT_set_label(AsksForLabel, Edit, bpy.types.Operator):
     """Say what kind of thing the selected objects are; only things of the same label are compared"""
 
     bl_idname = "geoanalogy.set_label"
@@ -23,6 +23,8 @@ class GEOANALOGY_OT_set_label(Edit, bpy.types.Operator):
         ],
     )
 
+    asked = ("target",)
+
     @classmethod
     def poll(cls, context):
         return needs_object_mode(cls, context)
@@ -30,7 +32,7 @@ class GEOANALOGY_OT_set_label(Edit, bpy.types.Operator):
     def invoke(self, context, event):
         item = context.active_object
         self.label = "" if item is None else str(item.get(names.LABEL, ""))
-        return context.window_manager.invoke_props_dialog(self)
+        return super().invoke(context, event)
 
     def edit(self, context):
         """Write the label."""

@@ -31,12 +31,8 @@ class GEOANALOGY_PT_drawings(SidebarPanel, bpy.types.Panel):
         column = layout.column(align=True)
         column.label(text="Query")
         row = column.row(align=True)
-        for mode, text, icon in (
-            ("LASSO", "Lasso", "BORDERMOVE"),
-            ("BRUSH", "Brush", "BRUSH_DATA"),
-            ("STROKE", "Stroke", "GREASEPENCIL"),
-        ):
-            row.operator("geoanalogy.draw_query", text=text, icon=icon).mode = mode
+        for mode, text in (("LASSO", "Lasso"), ("BRUSH", "Brush"), ("STROKE", "Stroke")):
+            row.operator("geoanalogy.draw_query", text=text).mode = mode
         row = column.row(align=True)
         row.prop(settings, "query", text="")
         row.operator("geoanalogy.use_as_query", text="", icon="EYEDROPPER")

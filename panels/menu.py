@@ -9,7 +9,7 @@ GROUPS = (
     ("draw_rectangles", "place"),
     ("extrude", "combine", "select_elements"),
     ("accept", "reject", "reject_below", "forget_decisions", "explain", "list_unfamiliar"),
-    ("replay", "apply", "clear", "make_real", "import_tree", "export_tree"),
+    ("replay", "apply", "clear", "make_real", "own_tree", "import_tree", "export_tree"),
     ("import_drawing", "draw_query", "use_as_query", "find_regions", "lay_image", "carry_over", "show_transformations"),
 )
 

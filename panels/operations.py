@@ -5,6 +5,7 @@ import bpy
 from ..geoanalogy.blender import names
 from ..geoanalogy.blender.tree.evaluating import parcels_of
 from ..geoanalogy.blender.tree.node_tree import ICONS
+from ..geoanalogy.blender.tree.sharing import sharers
 from ..geoanalogy.blender.tree.store import builds, drawing_nodes, ordered_nodes, tree_of
 from .base import SidebarPanel, hint, paragraph
 
@@ -56,6 +57,10 @@ class GEOANALOGY_PT_operations(SidebarPanel, bpy.types.Panel):
         if tree is None:
             hint(layout, "None recorded yet")
             return
+        others = sharers(scene)
+        if others:
+            hint(layout, f"Shared with {others[0].name}: what is changed here changes there", "LINKED")
+            layout.operator("geoanalogy.own_tree", text="Make Its Own", icon="DUPLICATE")
         row = layout.row()
         row.template_list("GEOANALOGY_UL_operations", "", tree, "nodes", tree, "active_index", rows=4, sort_lock=True)
         side = row.column(align=True)

@@ -42,8 +42,8 @@ class GEOANALOGY_PT_placement(SidebarPanel, bpy.types.Panel):
         if len(items) > MOST_LISTED:
             hint(column, f"and {len(items) - MOST_LISTED} more", "NONE")
         row = layout.row(align=True)
-        row.operator("geoanalogy.set_target", text="Wanted", icon="CHECKMARK").target = 1.0
-        row.operator("geoanalogy.set_target", text="Not Wanted", icon="X").target = 0.0
+        row.operator("geoanalogy.set_target", text="Wanted").target = 1.0
+        row.operator("geoanalogy.set_target", text="Not Wanted").target = 0.0
 
 
 def register():

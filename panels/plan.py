@@ -20,11 +20,11 @@ class GEOANALOGY_PT_plan(SidebarPanel, bpy.types.Panel):
         column.operator("geoanalogy.import_plan", icon="IMPORT")
         column.operator("geoanalogy.make_polygons", icon="MESH_DATA")
         column = layout.column(align=True)
-        column.label(text="Label")
-        row = column.row(align=True)
-        row.operator("geoanalogy.set_label", text="Selected").target = "OBJECTS"
-        row.operator("geoanalogy.set_label", text="Collection").target = "COLLECTION"
-        row.operator("geoanalogy.label_faces", text="Faces")
+        column.operator("geoanalogy.set_label", text="Label Selected", icon="BOOKMARKS").target = "OBJECTS"
+        column.operator(
+            "geoanalogy.set_label", text="Label Collection", icon="OUTLINER_COLLECTION"
+        ).target = "COLLECTION"
+        column.operator("geoanalogy.label_faces", icon="FACESEL")
         if context.mode == "EDIT_MESH":
             hint(layout, "Select faces and label them: walls, roofs; all else is done in Object Mode")
         elif context.scene.geoanalogy.plan is None and not _has_labels(context.scene):

@@ -17,11 +17,12 @@ class GEOANALOGY_PT_propagation(SidebarPanel, bpy.types.Panel):
         row = layout.row()
         row.scale_y = 1.4
         row.operator("geoanalogy.propagate", icon="PLAY")
-        grid = layout.grid_flow(columns=2, align=True, even_columns=True)
-        grid.operator("geoanalogy.array", icon="MOD_ARRAY")
-        grid.operator("geoanalogy.scatter", icon="STICKY_UVS_DISABLE")
-        grid.operator("geoanalogy.transfer", text="Group", icon="MOD_LATTICE")
-        grid.operator("geoanalogy.choose", text="One of Several", icon="RNDCURVE")
+        column = layout.column(align=True)
+        row = column.row(align=True)
+        row.operator("geoanalogy.array", icon="MOD_ARRAY")
+        row.operator("geoanalogy.scatter", icon="STICKY_UVS_DISABLE")
+        column.operator("geoanalogy.transfer", icon="MOD_LATTICE")
+        column.operator("geoanalogy.choose", text="One of Several", icon="RNDCURVE")
 
 
 def register():

@@ -130,3 +130,60 @@ def test_ids_are_undone_with_what_has_given_them(operator):
     bpy.ops.ed.undo()
     assert "ga_id" not in bpy.data.objects["room 1"]
     assert operator == "propagate" or operations_tree() is not None
+
+
+def full_copy():
+    bpy.ops.scene.new(type="FULL_COPY")
+    return bpy.context.scene
+
+
+def test_a_full_copy_of_a_scene_gets_operations_of_its_own():
+    rooms()
+    bed()
+    propagate()
+    first, before = bpy.context.scene, poses()
+    sharers = bridge("tree.sharing").sharers
+    with pytest.raises(RuntimeError, match="no other scene shares the operations of 'Scene'; they are its own already"):
+        bpy.ops.geoanalogy.own_tree(EXEC, True)
+    second = full_copy()
+    assert sharers(second) == [first] and sharers(first) == [second]
+    assert bpy.ops.geoanalogy.own_tree(EXEC, True) == {"FINISHED"}
+    assert sharers(first) == sharers(second) == [] and first.geoanalogy.tree != second.geoanalogy.tree
+    (entry,) = second.geoanalogy.tree.nodes["bed"]["examples"].values()
+    assert entry["object"] == second.objects["Bed.001"]
+    replay()
+    assert np.allclose(poses(), before, atol=1e-4)
+    # What is decided and moved in one scene leaves the other as it is.
+    second.objects["Bed.001"].location.y -= 1.0
+    replay()
+    assert not np.allclose(poses(), before, atol=0.5)
+    decide(0, "reject")
+    assert len(poses()) == len(before) - 1
+    bpy.context.window.scene = first
+    assert np.allclose(poses(), before, atol=1e-4)
+    replay()
+    assert np.allclose(poses(), before, atol=1e-4)
+
+
+def test_operations_of_its_own_are_undone():
+    rooms()
+    bed()
+    propagate()
+    full_copy()
+    bpy.ops.ed.undo_push()
+    assert bpy.ops.geoanalogy.own_tree(EXEC, True) == {"FINISHED"}
+    bpy.ops.ed.undo()
+    assert [tree.name for tree in bpy.data.node_groups] == ["Scene operations"]
+    assert len(bridge("tree.sharing").sharers(bpy.context.scene)) == 1
+
+
+def test_a_scene_without_copies_of_the_examples_keeps_what_was_learned():
+    rooms()
+    bed()
+    tree = propagate().id_data
+    bpy.context.window.scene = other = bpy.data.scenes.new("Other")
+    other.geoanalogy.tree = tree
+    rooms()
+    assert bpy.ops.geoanalogy.own_tree(EXEC, True) == {"FINISHED"}
+    replay()
+    assert len(results()) == 3
