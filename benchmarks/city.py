@@ -10,12 +10,10 @@ nothing. How far it is goes to the standard error.
 
 from __future__ import annotations
 
-import importlib.util
 import itertools
 import resource
 import shutil
 import statistics
-import subprocess
 import sys
 import tempfile
 import time
@@ -32,6 +30,7 @@ from geoanalogy.batch.product import added, together
 from sample_blends.city.maps import HERE
 from sample_blends.houses.plots import TYPES
 
+from .in_blender import in_blender
 from .measuring import Table, duration, times
 
 TREES = HERE.parent / "houses"
@@ -111,29 +110,22 @@ def facts(job: Job) -> dict[str, float]:
 
 #: Writes the tiles of a folder as a .blend and opens it again; run by a process of its own.
 WRITE = """
-import sys, time, resource, os
-from pathlib import Path
 from geoanalogy.batch.product import Product
 from geoanalogy.blender.writing import buildings
 from geoanalogy.geometry.scene import Scene
-import bpy
 folder = Path(sys.argv[1])
 begin = time.process_time()
-products = [(p.stem, Product.from_bytes(p.read_bytes())) for p in sorted(folder.glob("*.npz"))]
+products = ((p.stem, Product.from_bytes(p.read_bytes())) for p in sorted(folder.glob("*.npz")))
 buildings.write(Scene([]), products, buildings.Results(folder / "city.blend"))
 written = time.process_time() - begin
-memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e3
+memory = peak()
 begin = time.process_time()
 bpy.ops.wm.open_mainfile(filepath=str(folder / "city.blend"))
-print("RESULT", written, memory, time.process_time() - begin, os.path.getsize(folder / "city.blend") / 1e6)
-sys.stdout.flush()
-os._exit(0)
+end(written, memory, time.process_time() - begin, os.path.getsize(folder / "city.blend") / 1e6)
 """
 
 #: Cuts windows out of one wall after the other, as objects and modifiers do.
 NAIVE = """
-import sys, time, os
-import bpy
 bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
 count, windows = int(sys.argv[1]), int(sys.argv[2])
 def box(x, y, w, d, h, z=0.0):
@@ -152,20 +144,8 @@ for k in range(count):
         cut.operation, cut.object = "DIFFERENCE", hole
         hole.hide_render = True
 bpy.context.evaluated_depsgraph_get().update()
-print("RESULT", time.process_time() - begin)
-sys.stdout.flush()
-os._exit(0)
+end(time.process_time() - begin)
 """
-
-
-def in_blender(program: str, *arguments: object) -> list[float] | None:
-    """The figures that a program prints, run in a process that has the bpy module; None where there is none."""
-    if importlib.util.find_spec("bpy") is None:
-        return None
-    command = [sys.executable, "-c", program, *map(str, arguments)]
-    done = subprocess.run(command, cwd=HERE.parent.parent, capture_output=True, text=True, check=True)
-    (line,) = [line for line in done.stdout.splitlines() if line.startswith("RESULT")]
-    return [float(v) for v in line.split()[1:]]
 
 
 def buildings(full: bool) -> Iterator[Table]:
