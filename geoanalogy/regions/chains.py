@@ -4,7 +4,9 @@ Elastic alignment (`alignment`) compares how lines turn; where a shape has few b
 missing, the corners themselves and the chords between them say more. A chord of the query laid on a chord of the
 drawing is a first-order correspondence: it has a scale and a rotation. Two that follow each other along both lines are
 as alike as their transformations are, which is the similarity of section 3.2 taken along the line. A chain of them
-needs no position, no scale and no rotation, and it ends where the line was cut.
+needs no position, no scale and no rotation, and it ends where the line was cut. Between two corners that is, as a rule:
+a chord to the end of an open line is shorter than its counterpart, so that its rotation says something, and of its
+scale only whether it is too large.
 
 The score of a chain is a logarithm of odds: every joint of two chords adds what its change of scale and of rotation
 says for one shape that was bent rather than two that have nothing in common, every corner that only one line has costs.
@@ -275,6 +277,7 @@ class _Walk:
         for span in range(1, TAKEN_IN):
             price[span] = _missed(row[begin[:span]], row[begin[span]], chord[span])
         ratio, way, doubt = (np.where(possible, x, 0.0).astype(single) for x in (ratio, way, doubt))
+        last, first = self._ends()
         price = np.where(possible, price, np.inf).astype(single)
         # the states at the corners where chords begin, by corner of the query: (chords, chords of the target, columns)
         recent: dict[int, tuple[NDArray, ...]] = {}
@@ -304,6 +307,9 @@ class _Walk:
                 miss *= doubtful
                 worth = score - np.minimum(miss * turned, single(MOST_COST))
                 np.subtract(now_scale, was_scale, out=miss)
+                if self.closed:  # what ends where a line was cut is shorter than it was: only a larger scale is a miss
+                    miss[:, :, last] = np.maximum(miss[:, :, last], single(0.0))
+                    miss[first[a]] = np.minimum(miss[first[a]], single(0.0))
                 miss *= miss
                 miss *= doubtful
                 worth -= np.minimum(miss, single(MOST_COST), out=miss)
@@ -323,6 +329,22 @@ class _Walk:
             reached[gone > room] = -np.inf
             recent[e] = (reached, scale[:, begin], turn[:, begin], blur[:, begin], self.passed[e][:, begin], gone)
             recent.pop(e - TAKEN_IN, None)
+
+    def _ends(self) -> tuple[Indices, dict[int, tuple[Indices, ...]]]:
+        """Where chords end at the end of an open line of the drawing, and where those before begin at its beginning."""
+        last = [block.columns.stop - 1 for block in self.blocks if not block.closed]
+        first: dict[int, tuple[Indices, ...]] = {}
+        for a, (_, spans) in BY_QUERY.items():
+            at = [
+                (k, span - 1, block.start + b + span)
+                for block in self.blocks
+                if not block.closed
+                for k, (_, b) in enumerate(CHORDS)
+                for span in range(1, spans.stop + 1)
+                if b + span < len(block.corners)
+            ]
+            first[a] = tuple(np.reshape(at, (-1, 3)).astype(np.intp).T)
+        return np.array(last, np.intp), first
 
     def chains(self, grade: int, run: int, least: float) -> Iterator[tuple[int, Chain]]:
         """The best chains of every block, each with another beginning, and the number of their target."""
@@ -358,8 +380,16 @@ class _Walk:
             pairs.append((e, t))
         q, t = np.array(pairs[::-1]).T
         arc, goal = _arc(self.source), _arc(way)
-        where = np.linspace(arc[q[0]], arc[q[-1]], PAIRS)
-        there = np.interp(where, arc[q], goal[t])
+        own, other = arc[q], goal[t]
+        if self.closed and not block.closed and len(q) > 3:
+            # where the line was cut, it ends somewhere on the way to the corner, as its scale says
+            scale = (other[-2] - other[1]) / (own[-2] - own[1])
+            if t[0] == 0:
+                own[0] = max(own[0], own[1] - (other[1] - other[0]) / scale)
+            if t[-1] == n - 1:
+                own[-1] = min(own[-1], own[-2] + (other[-1] - other[-2]) / scale)
+        where = np.linspace(own[0], own[-1], PAIRS)
+        there = np.interp(where, own, other)
         return Chain(_along(self.source, arc, where), _along(way, goal, there), block.mirrored, value, grade, run)
 
 

@@ -77,6 +77,17 @@ def test_a_cut_line_has_the_chain_of_what_is_left():
     assert 0.4 * whole.found[0].score < cut.found[0].score < 0.8 * whole.found[0].score
 
 
+@pytest.mark.parametrize("way", [-1, 1])
+def test_a_line_cut_between_corners_ends_there_and_not_at_the_next_corner(way):
+    ring = closed(STAIR)
+    begin, end = 0.4 * ring[0] + 0.6 * ring[1], 0.7 * ring[5] + 0.3 * ring[6]
+    left = np.vstack([begin, ring[1:6], end])[::way]
+    drawing, found = laid(moved(left, 1.3, 0.7, (20.0, 3.0)))
+    best = found.found[0]
+    truth = moved(drawing.out_of_frame(best.source), 1.3, 0.7, (20.0, 3.0))
+    assert np.linalg.norm(drawing.out_of_frame(best.target) - truth, axis=1).max() < 0.08
+
+
 def test_mirror_images_are_only_looked_for_where_they_are_wanted():
     _, found = laid(moved(closed(STAIR), shift=(20.0, 0.0), mirrored=True), mirrored=False)
     assert not any(c.mirrored for c in found.found)
