@@ -231,6 +231,62 @@ def test_a_tree_of_the_map_is_an_instance(files):
     assert place[:3, 3] == pytest.approx((2, 2, 0)) and np.linalg.norm(place[:3, 0]) == pytest.approx(2)
 
 
+def bent_hedge(pieces=32):
+    """A long lawn with a hedge along its edge and a round one of radius 2 about (20, 0), and a tree that bends it."""
+    polygon, transfer = engine().Polygon, engine("poses.group_transfer")
+    turn = np.linspace(0, 2 * np.pi, 48, endpoint=False)
+    long = polygon([(-40, -1), (-20, -1), (-20, 1), (-40, 1)], label="lawn", id="long")
+    lawns = [long, polygon(np.column_stack([20 + 2 * np.cos(turn), 2 * np.sin(turn)]), label="lawn", id="round")]
+    outline = np.array([(-4, -0.2), (4, -0.2), (4, 0.2), (-4, 0.2)])
+    standing = transfer.GroupObject(engine().Pose((-30, -0.5), 0.0), outline)
+    options = engine("poses.local_mapping").TransferOptions(distance="absolute", shape="outline")
+    group = transfer.GroupTransfer(long, [standing], options)
+    operation = engine("operations.group_placement").GroupPlacement(meshes=("hedge",), labels=("hedge",), group=group)
+    x = np.linspace(-4, 4, pieces + 1)
+    points = [(u, v, h) for u in x for v, h in ((-0.2, 0), (0.2, 0), (0.2, 0.8), (-0.2, 0.8))]
+    sides = [
+        [4 * i + k, 4 * i + (k + 1) % 4, 4 * i + 4 + (k + 1) % 4, 4 * i + 4 + k]
+        for i in range(pieces)
+        for k in range(4)
+    ]
+    mesh = bpy.data.meshes.new("hedge")
+    mesh.from_pydata(points, [], sides)
+    bpy.context.scene.collection.objects.link(bpy.data.objects.new("hedge", mesh))
+    return engine().Scene(lawns), engine().OperationsTree([engine("operations.node").Node("take", operation)])
+
+
+def test_objects_of_a_group_are_bent(files):
+    ground, recorded = bent_hedge()
+    recorded.save(files / "tree.json")
+    engine().write_scene(ground, files / "plots.geojson")
+    bpy.ops.wm.save_as_mainfile(filepath=str(files / "hedges.blend"), copy=True)
+    done = apply(files, "--output", str(files / "out.blend"), "--library", str(files / "hedges.blend"))
+    assert done.returncode == 0, done.stdout + done.stderr
+    bpy.ops.wm.open_mainfile(filepath=str(files / "out.blend"))
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    there = [(i.object.data, i.matrix_world.copy()) for i in depsgraph.object_instances if i.is_instance]
+    assert len(there) == 2
+    points = (np.array([place @ v.co for v in data.vertices]) for data, place in there)
+    straight, bent = sorted(points, key=lambda one: one[:, 0].min())
+    rest = np.array([v.co for v in bpy.data.meshes["hedge"].vertices])
+    assert straight == pytest.approx(np.add(rest, (-30, -0.5, 0)), abs=1e-5)
+    away = np.hypot(bent[:, 0] - 20, bent[:, 1])
+    assert away == pytest.approx(2 - np.where(rest[:, 1] < 0, 0.3, 0.7), abs=0.02)
+    assert bent[:, 2] == pytest.approx(rest[:, 2], abs=1e-5)
+    kept = {o.data.name for o in bpy.data.collections["Library"].objects}
+    assert kept == {data.name for data, _ in there} and len(kept) == 2
+
+
+def test_a_box_that_stands_for_what_is_bent_is_not(files):
+    ground, recorded = bent_hedge()
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    built = fill(ground, built_on(ground, recorded))
+    bpy.context.view_layer.update()
+    assert built.instances == 2 and len(built.problems) == 1
+    lengths = sorted(np.linalg.norm(place[:3, 0]) for _, place in shown())
+    assert lengths[1] == pytest.approx(8.0, abs=1e-4) and lengths[0] == pytest.approx(1.8, abs=0.1)
+
+
 def test_rotations_are_kept_exactly_by_many_instances(files):
     rng = np.random.default_rng(3)
     axes, _ = np.linalg.qr(rng.normal(size=(500, 3, 3)))

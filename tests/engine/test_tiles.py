@@ -7,10 +7,11 @@ import os
 import signal
 from pathlib import Path
 
+import numpy as np
 import pytest
 from shapes import rectangle
 
-from geoanalogy import InputError, OperationsTree, Polygon, Scene
+from geoanalogy import InputError, OperationsTree, Polygon, Pose, Scene
 from geoanalogy.batch import computing, processes
 from geoanalogy.batch.detail import depths, simplified
 from geoanalogy.batch.generation import Choices, Stopped, generate, merged, remaining
@@ -23,8 +24,11 @@ from geoanalogy.geometry.extrusion import FaceLabels
 from geoanalogy.geometry.solid import Solid
 from geoanalogy.operations.boolean import Boolean
 from geoanalogy.operations.extrusion import Extrusion
+from geoanalogy.operations.group_placement import GroupPlacement
 from geoanalogy.operations.node import Link, Node
 from geoanalogy.operations.selection import Selection
+from geoanalogy.poses.group_transfer import GroupObject, GroupTransfer
+from geoanalogy.poses.local_mapping import TransferOptions
 
 
 def tree():
@@ -245,6 +249,36 @@ def test_a_product_is_read_as_it_was_written(tmp_path):
     assert set(product.masses.parcels) == {f"p{k:02d}" for k in range(12)}
     with pytest.raises(InputError, match="the finished tile is damaged"):
         Product.from_bytes(b"PK nothing")
+
+
+def test_products_say_how_objects_are_bent(tmp_path):
+    long = Polygon(rectangle(20, 2, (-40, -1)), "lawn", "long")
+    lawns = [long, *(Polygon(rectangle(9, 9, (20.0 * k, 0.0)), "lawn", f"square {k}") for k in range(3))]
+    hedge = GroupObject(Pose((-30.0, -0.5), 0.0), np.array(rectangle(8, 0.4, (-4, -0.2)), float))
+    bench = GroupObject(Pose((-30.0, 0.5), 0.0), np.array(rectangle(2, 0.4, (-1, -0.2)), float))
+    kinds = ("hedge", "bench")
+    for shape in ("rigid", "outline"):
+        group = GroupTransfer(long, [hedge, bench], TransferOptions(distance="absolute", shape=shape))
+        take = OperationsTree([Node("take", GroupPlacement(meshes=kinds, labels=kinds, group=group, everything=True))])
+        job = generate(take, Scene(lawns), tmp_path, Choices(per_tile=2))
+        products = [product for _, product in job.products()]
+        assert len(products) == 2
+        for product in (*products, together(products)):
+            placed = product.placed
+            assert len(placed) == 2 * len(product.facts["parcels"])
+            for k, mesh in enumerate(placed.meshes):
+                assert (placed.bend[k] >= 0) == (shape == "outline" and "long" not in placed.keys[k] and mesh in kinds)
+        if shape == "rigid":
+            assert not together(products).placed.bends
+            continue
+        placed = together(products).placed
+        assert Product.from_bytes(together(products).to_bytes()).content() == together(products).content()
+        for k, mesh in enumerate(placed.meshes):
+            if placed.bend[k] < 0:
+                continue
+            rows = placed.bends[placed.bend[k]]
+            assert rows[:, :2] == pytest.approx(group.outlines[kinds.index(mesh)], abs=1e-9)
+            assert placed.low[k, :2] == pytest.approx(rows[:, 2:].min(axis=0), abs=1e-9)
 
 
 def test_the_manifest_says_what_was_made(tmp_path):
