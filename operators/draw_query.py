@@ -17,6 +17,9 @@ MODES = [
     ("STROKE", "Stroke", "Drag along a thin shape: a coral, a stalk", "GREASEPENCIL", 2),
 ]
 
+#: Where the window takes long to draw, all but the last place of the mouse come as moves in between.
+MOVES = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}
+
 HELP = {
     "LASSO": "drag round the region",
     "BRUSH": "paint over the region; [ and ]: size, Backspace: take back, Enter: done",
@@ -88,7 +91,7 @@ class GEOANALOGY_OT_draw_query(ViewDrawing, bpy.types.Operator):
             self._sketch.take_back()
         elif event.type in {"LEFT_BRACKET", "RIGHT_BRACKET"} and pressed:
             settings.brush = round(settings.brush * (1.2 if event.type == "RIGHT_BRACKET" else 1 / 1.2))
-        elif event.type == "MOUSEMOVE" and self._dragging:
+        elif event.type in MOVES and self._dragging:
             self._drag(context, event)
         elif event.type == "LEFTMOUSE" and pressed:
             point = self._point(event) if self.is_inside(event) else None

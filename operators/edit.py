@@ -38,13 +38,12 @@ class AsksForLabel:
         return context.window_manager.invoke_props_dialog(self)
 
     def draw(self, context):
-        layout = self.layout
-        layout.use_property_split = True
-        column = layout.column()
-        column.activate_init = True
-        column.prop(self, "label")
+        # Of a split property, Blender would not activate the field.
+        row = self.layout.row()
+        row.activate_init = True
+        row.prop(self, "label")
         for name in self.asked:
-            layout.prop(self, name)
+            self.layout.prop(self, name)
 
 
 class LongEdit:
@@ -134,10 +133,14 @@ def needs_operations(cls: type, context: bpy.types.Context) -> bool:
     return True
 
 
-def active_operation(context: bpy.types.Context) -> bpy.types.Node:
-    """The operation that is active in the list."""
+def active_operation(context: bpy.types.Context, name: str = "") -> bpy.types.Node:
+    """The operation of a name; without one, that which is active in the list."""
     tree = tree_of(context.scene)
     nodes = recorded_nodes(tree)
+    if name:
+        if tree is None or tree.nodes.get(name) not in nodes:
+            raise InputError(f"there is no operation {name!r}; click one in the list of step 5")
+        return tree.nodes[name]
     active = tree.nodes.active if tree else None
     if active is None or active not in nodes:
         raise InputError("no operation is active; click one in the list of step 5")

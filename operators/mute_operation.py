@@ -1,6 +1,7 @@
 """Mute an operation, or let it speak again."""
 
 import bpy
+from bpy.props import StringProperty
 
 from ..geoanalogy.blender.regions.results import show_targets
 from ..geoanalogy.blender.tree.evaluating import mark_stale
@@ -10,10 +11,12 @@ from .edit import Edit, active_operation, needs_operations
 
 
 class GEOANALOGY_OT_mute_operation(Edit, bpy.types.Operator):
-    """Leave the active operation out, or take it in again; replay to see what follows from it"""
+    """Leave an operation out, or take it in again; replay to see what follows from it"""
 
     bl_idname = "geoanalogy.mute_operation"
     bl_label = "Mute Operation"
+
+    operation: StringProperty(name="Operation", description="Its name; empty: the one that is active in the list")
 
     @classmethod
     def poll(cls, context):
@@ -21,7 +24,7 @@ class GEOANALOGY_OT_mute_operation(Edit, bpy.types.Operator):
 
     def edit(self, context):
         """Switch it over."""
-        node = active_operation(context)
+        node = active_operation(context, self.operation)
         node.mute = not node.mute
         if works_on_drawings(node):
             show_targets(context.scene, node)

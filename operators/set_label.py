@@ -30,7 +30,7 @@ class GEOANALOGY_OT_set_label(AsksForLabel, Edit, bpy.types.Operator):
         return needs_object_mode(cls, context)
 
     def invoke(self, context, event):
-        item = context.active_object
+        item = context.active_object if self.target == "OBJECTS" else context.collection
         self.label = "" if item is None else str(item.get(names.LABEL, ""))
         return super().invoke(context, event)
 

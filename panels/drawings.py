@@ -24,10 +24,12 @@ class GEOANALOGY_PT_drawings(SidebarPanel, bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         settings = context.scene.geoanalogy
-        row = layout.row(align=True)
-        row.prop(settings, "drawing", text="Drawing")
+        column = layout.column(align=True)
+        column.label(text="Drawing")
+        row = column.row(align=True)
+        row.prop(settings, "drawing", text="")
         row.operator("geoanalogy.import_drawing", text="", icon="IMPORT")
-        layout.prop(settings, "smoothing")
+        column.prop(settings, "smoothing")
         column = layout.column(align=True)
         column.label(text="Query")
         row = column.row(align=True)
@@ -35,7 +37,8 @@ class GEOANALOGY_PT_drawings(SidebarPanel, bpy.types.Panel):
             row.operator("geoanalogy.draw_query", text=text).mode = mode
         row = column.row(align=True)
         row.prop(settings, "query", text="")
-        row.operator("geoanalogy.use_as_query", text="", icon="EYEDROPPER")
+        # The field has a pipette of its own.
+        row.operator("geoanalogy.use_as_query", text="", icon="RESTRICT_SELECT_OFF")
         row = layout.row()
         row.scale_y = 1.4
         row.operator("geoanalogy.find_regions", icon="VIEWZOOM")
@@ -54,7 +57,7 @@ class GEOANALOGY_PT_drawings(SidebarPanel, bpy.types.Panel):
         column.template_ID(context.scene.geoanalogy, "image", open="image.open")
         column.operator("geoanalogy.lay_image", icon="IMAGE_DATA")
         column.operator("geoanalogy.carry_over", icon="DUPLICATE")
-        layout.operator("geoanalogy.show_transformations", icon="GRAPH")
+        layout.operator("geoanalogy.show_transformations", text="Transformation Space", icon="GRAPH")
         view = space_collection(context.scene, node.name)
         if view is not None:
             plain, weighted = view[names.INLIERS]

@@ -28,7 +28,10 @@ class GEOANALOGY_UL_operations(bpy.types.UIList):
         count = row.row()
         count.alignment = "RIGHT"
         count.label(text=str(int(item.get(names.COUNT, 0))))
-        row.label(text="", icon="HIDE_ON" if item.mute else "HIDE_OFF")
+        switch = row.operator(
+            "geoanalogy.mute_operation", text="", icon="HIDE_ON" if item.mute else "HIDE_OFF", emboss=False
+        )
+        switch.operation = item.name
 
     def filter_items(self, context, data, property):
         nodes = list(getattr(data, property))
@@ -67,7 +70,6 @@ class GEOANALOGY_PT_operations(SidebarPanel, bpy.types.Panel):
         side.operator("geoanalogy.move_operation", text="", icon="TRIA_UP").direction = "UP"
         side.operator("geoanalogy.move_operation", text="", icon="TRIA_DOWN").direction = "DOWN"
         side.separator()
-        side.operator("geoanalogy.mute_operation", text="", icon="HIDE_OFF")
         side.operator("geoanalogy.remove_operation", text="", icon="REMOVE")
         if names.PROBLEM in tree:
             paragraph(layout, str(tree[names.PROBLEM]), "ERROR")

@@ -1,5 +1,8 @@
 """Drawings: what of a scene counts as drawn, and how what is carried over keeps its own axes."""
 
+import importlib
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
@@ -364,3 +367,17 @@ def test_the_brush_adds_up_and_takes_back():
     low, high = np.array(place([(-0.5, -0.5), (3.5, 1.1)]))
     assert ring.min(axis=0) == pytest.approx(np.minimum(low, high), abs=0.05)
     assert ring.max(axis=0) == pytest.approx(np.maximum(low, high), abs=0.05)
+
+
+@pytest.mark.parametrize("kind", ["MOUSEMOVE", "INBETWEEN_MOUSEMOVE"])
+def test_every_move_of_the_mouse_counts_where_the_window_takes_long_to_draw(addon, kind):
+    """Blender calls those in between that a slow window has missed by another name."""
+    operator = importlib.import_module(f"{addon.__name__}.operators.draw_query").GEOANALOGY_OT_draw_query
+    followed = []
+    drawing = SimpleNamespace(
+        _area=SimpleNamespace(tag_redraw=lambda: None),
+        _dragging=True,
+        _drag=lambda context, event: followed.append(event.type),
+    )
+    event = SimpleNamespace(type=kind, value="NOTHING")
+    assert operator.modal(drawing, bpy.context, event) == {"RUNNING_MODAL"} and followed == [kind]

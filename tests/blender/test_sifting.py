@@ -198,3 +198,14 @@ def test_mute_hides_results_and_brings_them_back():
     assert results(names[1]) == []
     assert bpy.ops.geoanalogy.mute_operation(EXEC, True) == {"FINISHED"}
     assert placed(results(names[1])) == before
+
+
+def test_the_eye_of_a_row_mutes_the_operation_of_that_row():
+    names = three_operations()
+    tree = operations_tree()
+    tree.nodes.active = tree.nodes[names[0]]
+    assert bpy.ops.geoanalogy.mute_operation(EXEC, True, operation=names[1]) == {"FINISHED"}
+    assert [node.mute for node in map(tree.nodes.get, names)] == [False, True, False]
+    assert results(names[1]) == [] and results(names[0]) and tree.nodes.active.name == names[0]
+    with pytest.raises(RuntimeError, match="there is no operation 'sofa'; click one in the list of step 5"):
+        bpy.ops.geoanalogy.mute_operation(EXEC, True, operation="sofa")
