@@ -100,6 +100,7 @@ def find_footprint_candidates(
     lattice = rows[:, None] * grid.columns + columns
     numbers = np.arange(lattice.size).reshape(lattice.shape)
     open_cells = ~taken[lattice]
+    closed = blocked.reshape(grid.rows, grid.columns)
     tried = directions(importance)
     if not tried:
         return Candidates(np.zeros((0, 2)), np.zeros(0), np.zeros(0))
@@ -109,11 +110,15 @@ def find_footprint_candidates(
         steps = grid.steps(importance.samples @ np.array([[c, s], [-s, c]]))
         (left, low), (right, high) = steps.min(axis=0), steps.max(axis=0)
         row, column = _fitting(low, high, stride, grid.rows), _fitting(left, right, stride, grid.columns)
-        cells = numbers[row, column][open_cells[row, column]]
+        free = open_cells[row, column]
+        if free.size:
+            free = free.copy()
+            for along, up in steps.tolist():
+                free &= ~closed[_moved(row, up, stride), _moved(column, along, stride)]
+        cells = numbers[row, column][free]
         # Where each sample of the footprint is.
         at = lattice.ravel()[cells] + (steps[:, 1] * grid.columns + steps[:, 0])[:, None]
-        free = ~blocked[at].any(axis=0)
-        places.append(_Places(direction, cells[free], at[:, free]))
+        places.append(_Places(direction, cells, at))
     sheets = np.full((len(tried), lattice.size), -1.0, dtype=np.float32)
     for sheet, p, total in zip(sheets, places, _accumulate(importance, fields, places), strict=True):
         sheet[p.cells] = total
@@ -136,6 +141,11 @@ def find_footprint_candidates(
 def _fitting(low: int, high: int, stride: int, size: int) -> slice:
     """Which of every so many-th place in a line keep within its size with what reaches from `low` to `high`."""
     return slice(max(0, math.ceil(-low / stride)), max(0, (size - 1 - high) // stride + 1))
+
+
+def _moved(places: slice, by: int, stride: int) -> slice:
+    """The grid points, some steps on, of every so many-th place in a line."""
+    return slice(places.start * stride + by, (places.stop - 1) * stride + by + 1, stride)
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,6 @@
 """What poses in an arrangement are asked, and what an answer is worth: the terms of the importance of section 4.5."""
 
 import copy
-from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +8,7 @@ from numpy.typing import NDArray
 from ..relations.elements import ElementType
 from ..relations.table import Positional
 from .arrangement import Arrangement
-from .matching import Sense, accuracies, answers
+from .matching import Matching, Sense
 from .query import Query
 
 Array = NDArray[np.float64]
@@ -30,8 +29,8 @@ class Importance:
     sense : Sense
     scale : float
         Size of the target in proportion to the example: lengths and the footprint are multiplied by it.
-    accuracy : mapping of ElementType to ndarray, optional
-        The features' matching accuracies, where they are known: they are the same in all senses and at all scales.
+    matching : Matching, optional
+        Of the arrangement, where it is known: it is the same in all senses and at all scales.
     """
 
     def __init__(
@@ -40,7 +39,7 @@ class Importance:
         target: Arrangement,
         sense: Sense,
         scale: float = 1.0,
-        accuracy: Mapping[ElementType, Array] | None = None,
+        matching: Matching | None = None,
     ) -> None:
         self.query = query
         self.target = target
@@ -50,7 +49,7 @@ class Importance:
         #: Whether poses are mirrored: an example that is mirrored itself has answers the other way about.
         self.mirrored = sense.mirrored != query.pose.mirrored
         self.samples = query.samples * scale * ((1.0, -1.0) if self.mirrored else (1.0, 1.0))
-        self.answers = answers(query, accuracies(query, target) if accuracy is None else accuracy, sense)
+        self.answers = (Matching(query, target) if matching is None else matching).answers(sense)
 
     def of_strongest(self, share: float) -> "Importance":
         """The same without the pairs of features that contribute little: cheaper, and enough to find where maxima are.

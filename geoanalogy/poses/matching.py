@@ -1,14 +1,13 @@
 """Which features of an arrangement answer to which of the example's, and how well (sections 4.4, 4.6 and 4.8)."""
 
 import enum
-from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.elements import ElementType, first_of, ranges, run_starts
+from ..relations.elements import ElementType, first_of, ranges, run_starts, sizes
 from ..relations.table import BOUNDARY_ANGLE, SEGMENT_ANGLE, Kind, Positional
 from .arrangement import Arrangement
 from .options import PoseOptions
@@ -161,17 +160,21 @@ def _turned(relation: Positional, turn: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Answers:
+class Layout:
     """The pairs of features of one type, laid out for accumulation: an entry per pair and sample.
+
+    It is the same in both senses and at all scales.
 
     Attributes
     ----------
     relations : tuple of Positional
+    entry : ndarray of shape (e,), int
+        Of the question, as often as there are symmetries: the number of the symmetry times that of the question's
+        entries, and the number of the entry.
     target, sample : ndarray of shape (e,), int
         The target's feature and the sample of each entry; entries of one pair are neighbours.
-    weight, value, turn : ndarray of shape (relations, e)
-        As in `Question`, seen through the pair's symmetry.
-    inner : ndarray of shape (e,), bool
+    weight : ndarray of shape (relations, e)
+        As in `Question`.
     contact : ndarray of shape (e,)
     per_pair, pair_start : ndarray of shape (p,), int
         Number of entries of each pair, and the first of them; pairs of one source feature are neighbours.
@@ -183,12 +186,10 @@ class Answers:
     """
 
     relations: tuple[Positional, ...]
+    entry: Indices
     target: Indices
     sample: Indices
     weight: Array
-    value: Array
-    turn: Array
-    inner: NDArray[np.bool_]
     contact: Array
     per_pair: Indices
     pair_start: Indices
@@ -196,6 +197,133 @@ class Answers:
     source_feature: Indices
     target_feature: Indices
     feature_start: Indices
+
+    @classmethod
+    def of(cls, question: Question, accuracy: Array, symmetries: int) -> "Layout":
+        """The pairs of features that may answer a question.
+
+        Parameters
+        ----------
+        question : Question
+        accuracy : ndarray of shape (source features, target features)
+            As `matching_accuracy` gives it.
+        symmetries : int
+            How many features of the type are taken through.
+
+        Returns
+        -------
+        Layout
+        """
+        # Entries of one feature are neighbours, and so are its pairs here.
+        first = run_starts(question.feature)
+        asking = question.feature[first]
+        source, feature = np.nonzero(accuracy[asking] > LEAST_ACCURACY)
+        through = np.tile(np.arange(symmetries), len(source))
+        source, feature = np.repeat(source, symmetries), np.repeat(feature, symmetries)
+        size = sizes(first, len(question.feature))[source]
+        entry = ranges(first[source], size)
+        source = asking[source]
+        return cls(
+            relations=question.relations,
+            entry=entry + len(question.feature) * np.repeat(through, size),
+            target=np.repeat(feature, size),
+            sample=question.sample[entry],
+            weight=question.weight.take(entry, axis=1),
+            contact=question.contact[entry],
+            per_pair=size,
+            pair_start=first_of(size),
+            accuracy=accuracy[source, feature],
+            source_feature=source,
+            target_feature=feature,
+            feature_start=run_starts(source),
+        )
+
+    @cached_property
+    def possible(self) -> Array:
+        """The most that each pair can contribute."""
+        return self.accuracy * np.add.reduceat(self.weight.sum(axis=0), self.pair_start)
+
+    @cached_property
+    def _strongest(self) -> "dict[float, tuple[Indices, Layout]]":
+        return {}
+
+    def chosen(self, share: float) -> "tuple[Indices, Layout]":
+        """The pairs that can contribute much: enough to find where maxima are.
+
+        Parameters
+        ----------
+        share : float
+            Of the strongest pair's contribution, below which a pair is left out.
+
+        Returns
+        -------
+        entries : ndarray of int
+            Their entries.
+        layout : Layout
+            Theirs.
+        """
+        if share not in self._strongest:
+            pairs = np.flatnonzero(self.possible >= share * self.possible.max())
+            size = self.per_pair[pairs]
+            entry = ranges(self.pair_start[pairs], size)
+            source = self.source_feature[pairs]
+            self._strongest[share] = (
+                entry,
+                Layout(
+                    relations=self.relations,
+                    entry=self.entry[entry],
+                    target=self.target[entry],
+                    sample=self.sample[entry],
+                    weight=self.weight.take(entry, axis=1),
+                    contact=self.contact[entry],
+                    per_pair=size,
+                    pair_start=first_of(size),
+                    accuracy=self.accuracy[pairs],
+                    source_feature=source,
+                    target_feature=self.target_feature[pairs],
+                    feature_start=run_starts(source),
+                ),
+            )
+        return self._strongest[share]
+
+
+_SHARED = tuple(f.name for f in fields(Layout))
+
+
+@dataclass(frozen=True)
+class Answers(Layout):
+    """The pairs of features of one type, and what they are asked in one sense.
+
+    Attributes
+    ----------
+    layout : Layout
+        That of the pairs.
+    value, turn : ndarray of shape (relations, e)
+        As in `Question`, seen through each pair's symmetry.
+    inner : ndarray of shape (e,), bool
+    """
+
+    layout: Layout
+    value: Array
+    turn: Array
+    inner: NDArray[np.bool_]
+
+    @classmethod
+    def to(cls, layout: Layout, value: Array, turn: Array, inner: NDArray[np.bool_]) -> "Answers":
+        """What pairs are asked.
+
+        Parameters
+        ----------
+        layout : Layout
+        value, turn : ndarray of shape (relations, e)
+        inner : ndarray of shape (e,), bool
+
+        Returns
+        -------
+        Answers
+        """
+        shared = {name: getattr(layout, name) for name in _SHARED}
+        return cls(**shared, layout=layout, value=value, turn=turn, inner=inner)
 
     def strongest(self, share: float) -> "Answers":
         """The pairs that can contribute much: enough to find where maxima are.
@@ -209,95 +337,61 @@ class Answers:
         -------
         Answers
         """
-        return self._take(np.flatnonzero(self.possible >= share * self.possible.max()))
-
-    @cached_property
-    def possible(self) -> Array:
-        """The most that each pair can contribute."""
-        return self.accuracy * np.add.reduceat(self.weight.sum(axis=0), self.pair_start)
-
-    def _take(self, pairs: Indices) -> "Answers":
-        size = self.per_pair[pairs]
-        entry = ranges(self.pair_start[pairs], size)
-        source = self.source_feature[pairs]
-        return Answers(
-            relations=self.relations,
-            target=self.target[entry],
-            sample=self.sample[entry],
-            weight=self.weight.take(entry, axis=1),
-            value=self.value.take(entry, axis=1),
-            turn=self.turn.take(entry, axis=1),
-            inner=self.inner[entry],
-            contact=self.contact[entry],
-            per_pair=size,
-            pair_start=first_of(size),
-            accuracy=self.accuracy[pairs],
-            source_feature=source,
-            target_feature=self.target_feature[pairs],
-            feature_start=run_starts(source),
-        )
+        entry, layout = self.layout.chosen(share)
+        return Answers.to(layout, self.value.take(entry, axis=1), self.turn.take(entry, axis=1), self.inner[entry])
 
 
-def accuracies(query: Query, target: Arrangement) -> dict[ElementType, Array]:
-    """I_m of section 4.4 for all types of element that an example asks for.
+class Matching:
+    """Which features of an arrangement may answer to those that an example asks for.
 
     Parameters
     ----------
     query : Query
     target : Arrangement
-
-    Returns
-    -------
-    dict of ElementType to ndarray of shape (source features, target features)
     """
-    return {e: matching_accuracy(query.arrangement, target, e, query.options) for e in query.questions}
 
+    def __init__(self, query: Query, target: Arrangement) -> None:
+        self._query = query
+        self._accuracy = {e: matching_accuracy(query.arrangement, target, e, query.options) for e in query.questions}
+        self._layouts: dict[tuple[ElementType, int], Layout] = {}
+        self._answers: dict[Sense, dict[ElementType, Answers]] = {}
 
-def answers(query: Query, accuracy: Mapping[ElementType, Array], sense: Sense) -> dict[ElementType, Answers]:
-    """Pair the features asked for with those of an arrangement that may answer.
+    def answers(self, sense: Sense) -> dict[ElementType, Answers]:
+        """Pair the features asked for with those that may answer, in one sense.
 
-    Parameters
-    ----------
-    query : Query
-    accuracy : mapping of ElementType to ndarray of shape (source features, target features)
-        As `accuracies` gives them for the arrangement.
-    sense : Sense
+        Parameters
+        ----------
+        sense : Sense
 
-    Returns
-    -------
-    dict of ElementType to Answers
-        Without the types of which nothing matches.
-    """
-    result = {}
-    for element, question in query.questions.items():
-        seen = [s for s in (_seen_through(y, question, element) for y in sense.symmetries) if s is not None]
-        # Entries of one feature are neighbours, and so are its pairs here.
-        first = run_starts(question.feature)
-        asking = question.feature[first]
-        source, feature = np.nonzero(accuracy[element][asking] > LEAST_ACCURACY)
-        if not len(source) or not seen:
-            continue
-        through = np.tile(np.arange(len(seen)), len(source))
-        source, feature = np.repeat(source, len(seen)), np.repeat(feature, len(seen))
-        size = np.diff(first, append=len(question.feature))[source]
-        entry = ranges(first[source], size)
-        source, seen_by = asking[source], np.repeat(through, size)
-        value, turn = (np.array([s[k] for s in seen]) for k in (0, 1))
-        inner = np.array([s[2] for s in seen])
-        result[element] = Answers(
-            relations=question.relations,
-            target=np.repeat(feature, size),
-            sample=question.sample[entry],
-            weight=question.weight.take(entry, axis=1),
-            value=value[seen_by, :, entry].T,
-            turn=turn[seen_by, :, entry].T,
-            inner=inner[seen_by, entry],
-            contact=question.contact[entry],
-            per_pair=size,
-            pair_start=first_of(size),
-            accuracy=accuracy[element][source, feature],
-            source_feature=source,
-            target_feature=feature,
-            feature_start=run_starts(source),
+        Returns
+        -------
+        dict of ElementType to Answers
+            Without the types of which nothing matches. The same at all scales; not to be changed.
+        """
+        if sense not in self._answers:
+            every = ((element, self._of(element, sense)) for element in self._query.questions)
+            self._answers[sense] = {element: a for element, a in every if a is not None}
+        return self._answers[sense]
+
+    def _of(self, element: ElementType, sense: Sense) -> Answers | None:
+        symmetries, value, turn, inner = _asked(self._query, element, sense)
+        layout = self._layouts.get((element, symmetries))
+        if layout is None:
+            layout = Layout.of(self._query.questions[element], self._accuracy[element], symmetries)
+            self._layouts[element, symmetries] = layout
+        if not len(layout.entry):
+            return None
+        return Answers.to(
+            layout, value.take(layout.entry, axis=1), turn.take(layout.entry, axis=1), inner[layout.entry]
         )
-    return result
+
+
+def _asked(query: Query, element: ElementType, sense: Sense) -> tuple[int, Array, Array, NDArray[np.bool_]]:
+    """Number of symmetries that a type of feature has in a sense, and what is asked through them, one after another."""
+    known = query.derived.get((element, sense))
+    if known is None:
+        seen = [_seen_through(y, query.questions[element], element) for y in sense.symmetries]
+        there = [s for s in seen if s is not None]
+        value, turn, inner = (np.concatenate([s[k] for s in there], axis=-1) for k in range(3))
+        known = query.derived[element, sense] = len(there), value, turn, inner
+    return known  # type: ignore[no-any-return]

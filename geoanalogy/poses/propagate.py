@@ -21,7 +21,7 @@ from .fields import Fields
 from .footprint_candidates import SLACK, directions_read, find_footprint_candidates
 from .importance import Importance
 from .kernels import wrap
-from .matching import Sense, accuracies, senses
+from .matching import Matching, Sense, senses
 from .options import PoseOptions
 from .pose import Pose, footprint_ring
 from .query import Query
@@ -188,10 +188,10 @@ class PoseModel:
         Importance
             Those that cannot reach the threshold are left out.
         """
-        accuracy = accuracies(self.query, target)
+        matching = Matching(self.query, target)
         for scale in self.scales(target):
             for sense in senses(self.query):
-                importance = Importance(self.query, target, sense, scale, accuracy)
+                importance = Importance(self.query, target, sense, scale, matching)
                 if self.query.total and importance.bound >= self.options.threshold:
                     yield importance
 
@@ -226,12 +226,13 @@ class PoseModel:
         factor = np.array([1.0 if i.scale == 1.0 else SCALED_FACTOR for i in importances])
         refined = refine(importances, [candidates for _, candidates in tried], factor.tolist(), self._stands)
         found: dict[Arrangement, list[tuple[float, Array, float, Importance]]] = {}
-        for k, importance in enumerate(importances):
+        for k, mine in refined.by_importance():
+            importance, poses = importances[k], refined.of(mine)
             target, turned = importance.target, importance.mirrored
-            poses = refined.of(refined.which == k)
-            poses = poses.of(poses.value * factor[k] >= self.options.threshold)
-            poses = poses.of(~self._is_example(target, poses.position, turned))
-            poses = poses.of(self.query.is_upright(poses.angle, turned))
+            good = poses.value * factor[k] >= self.options.threshold
+            good &= ~self._is_example(target, poses.position, turned)
+            good &= self.query.is_upright(poses.angle, turned)
+            poses = poses.of(good)
             poses = poses.of(self._validation.accepts(target, poses.position, poses.angle, turned, importance.scale))
             rows = zip(poses.value * factor[k], poses.position, poses.angle, strict=True)
             found.setdefault(target, []).extend((float(v), p, float(a), importance) for v, p, a in rows)

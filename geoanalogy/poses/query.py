@@ -1,6 +1,8 @@
 """What the example says: relation values, directions and local importance at its samples (sections 4.2 to 4.4)."""
 
+from collections.abc import Hashable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,6 +119,8 @@ class Query:
         self.width = options.level_set_width * arrangement.parent.size
         seen = Observation(arrangement.elements, pose.to_scene(self.samples))
         self._context = self.rigid
+        #: What is made of the example for any arrangement that it is compared with.
+        self.derived: dict[Hashable, Any] = {}
         self.questions = {t: q for t in ElementType if (q := self._question(t, seen)) is not None}
         self.total = float(sum(q.weight.sum() for q in self.questions.values()))
         if not self.total and not self._context:

@@ -1,11 +1,12 @@
 """Which candidates are worth going on with: those of one arrangement stand against one another."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..relations.elements import run_starts
 from .batch import Batch
 from .importance import Importance
 
@@ -42,18 +43,30 @@ class Refined:
     angle: Array
     value: Array
 
-    def of(self, chosen: Indices | Bools) -> "Refined":
+    def of(self, chosen: Indices | Bools | slice) -> "Refined":
         """Some of the poses.
 
         Parameters
         ----------
-        chosen : ndarray of int or bool
+        chosen : ndarray of int or bool, or slice
 
         Returns
         -------
         Refined
         """
         return Refined(self.which[chosen], self.position[chosen], self.angle[chosen], self.value[chosen])
+
+    def by_importance(self) -> Iterator[tuple[int, slice]]:
+        """The number of every importance that has poses, and which they are.
+
+        Yields
+        ------
+        int, slice
+        """
+        first = run_starts(self.which)
+        yield from zip(
+            self.which[first].tolist(), map(slice, first.tolist(), [*first[1:].tolist(), None]), strict=False
+        )
 
     def bettered(self, position: Array, angle: Array, value: Array) -> "Refined":
         """Each pose, or the one offered in its place where that is worth more.
@@ -165,8 +178,7 @@ class Rivals:
         if self._stands is None:
             return np.arange(len(poses.which))
         stands = np.ones(len(poses.which), dtype=bool)
-        for k in np.unique(poses.which):
-            mine = poses.which == k
+        for k, mine in poses.by_importance():
             stands[mine] = self._stands(self._importances[k], poses.position[mine], poses.angle[mine], slack)
         value = self.worth(poses)
         top = self._best(poses.of(stands), value[stands])

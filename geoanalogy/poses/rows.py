@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.elements import Elements, ElementType, first_of, ranges
+from ..relations.elements import Elements, ElementType, first_of, ranges, sizes
 from ..relations.sighting import Sighting
 from ..relations.table import Positional
 from .fields import FAR
@@ -118,12 +118,12 @@ class Rows:
     @cached_property
     def per_pair(self) -> Indices:
         """Number of rows of each pair."""
-        return np.diff(self.pair_start, append=len(self.entry))
+        return sizes(self.pair_start, len(self.entry))
 
     @cached_property
     def per_feature(self) -> Indices:
         """Number of pairs of each feature of the example."""
-        return np.diff(self.feature_start, append=len(self.accuracy))
+        return sizes(self.feature_start, len(self.accuracy))
 
     @cached_property
     def directed(self) -> Bools:

@@ -130,9 +130,12 @@ class Validation:
         if self._footprint is None or not self._options.validate:
             return shapely.intersects_xy(target.parent.shape, *position.T)  # type: ignore[no-any-return]
         outlines = self._outlines(self._footprint, position, angle, mirrored, scale)
-        area = shapely.area(outlines)
-        inside = shapely.area(shapely.intersection(outlines, target.parent.shape)) / area
-        accepted: NDArray[np.bool_] = inside >= self._at_example[0] - JUTTING_SHARE
+        # What lies in the parent whole need not be measured.
+        shapely.prepare(target.parent.shape)
+        accepted: NDArray[np.bool_] = shapely.covers(target.parent.shape, outlines)
+        jutting = np.flatnonzero(~accepted)
+        inside = shapely.area(shapely.intersection(outlines[jutting], target.parent.shape))
+        accepted[jutting] = inside / shapely.area(outlines[jutting]) >= self._at_example[0] - JUTTING_SHARE
         tree = self._tree(target)
         which, hit = tree.query(outlines, predicate="intersects")
         accepted[which[_share_more_than_a_sliver(outlines[which], tree.geometries[hit])]] = False

@@ -114,7 +114,7 @@ class Elements:
             if kept is None:
                 kept = _KEPT[polygon] = cls._extracted((polygon,), 0.0)
             parts.append(kept)
-        return cls.joined(parts, frame)
+        return parts[0] if len(parts) == 1 and frame == parts[0].frame else cls.joined(parts, frame)
 
     @classmethod
     def _extracted(cls, polygons: tuple[Polygon, ...], frame: float) -> "Elements":
@@ -351,6 +351,31 @@ def first_of(size: Indices) -> Indices:
     first: Indices = np.cumsum(size)
     first -= size
     return first
+
+
+def sizes(first: Indices, whole: int) -> Indices:
+    """Sizes of neighbours that begin at given places.
+
+    Parameters
+    ----------
+    first : ndarray of shape (n,), int
+        Ascending.
+    whole : int
+        Where the last of them ends.
+
+    Returns
+    -------
+    ndarray of shape (n,), int
+
+    Examples
+    --------
+    >>> sizes(np.array([0, 2, 2]), 5).tolist()
+    [2, 0, 3]
+    """
+    size: Indices = np.empty_like(first)
+    np.subtract(first[1:], first[:-1], out=size[:-1])
+    size[-1:] = whole - first[-1:]
+    return size
 
 
 def ranges(start: Indices, count: Indices) -> Indices:

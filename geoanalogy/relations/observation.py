@@ -285,6 +285,13 @@ class Observation:
         return turn
 
     @cached_property
+    def corner_side(self) -> tuple[NDArray[np.bool_], Array]:
+        """Whether points lie between the edges of corners, and the angle they lie in; both (corners, points)."""
+        opening = self.elements.corner_opening[:, None]
+        inside = self.corner_turn <= opening
+        return inside, np.where(inside, opening, 2 * np.pi - opening)
+
+    @cached_property
     def from_corner(self) -> Directions:
         """Direction from each corner to each point, of length 1 or, at the corner, 0; shape (corners, points)."""
         v = self.elements.corner_vertex

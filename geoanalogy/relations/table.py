@@ -107,16 +107,17 @@ def _segment_arc_slope(seen: Observation) -> Array:
 def _corner_ratio(seen: Observation) -> Array:
     # Between the corner's edges 0 to 1, as printed. Beyond them it goes on from 1 to 2 over the exterior angle, so
     # that poses outside an object have a ratio as well and its level sets close at 0 = 2.
-    turn = seen.corner_turn
+    inside, angle = seen.corner_side
     opening = seen.elements.corner_opening[:, None]
-    return np.where(turn <= opening, turn / opening, 1 + (turn - opening) / (2 * np.pi - opening))
+    ratio = np.where(inside, seen.corner_turn, seen.corner_turn - opening)
+    ratio /= angle
+    ratio += ~inside
+    return ratio
 
 
 def _corner_ratio_slope(seen: Observation) -> Array:
-    opening = seen.elements.corner_opening[:, None]
-    inside = seen.corner_turn <= opening
     with np.errstate(divide="ignore"):
-        return 1.0 / (seen.corner[0] * np.where(inside, opening, 2 * np.pi - opening))
+        return 1.0 / (seen.corner[0] * seen.corner_side[1])
 
 
 def _segment_period(elements: Elements) -> Array:
