@@ -32,7 +32,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 import geoanalogy as ga
 from benchmarks.measuring import Table
 from benchmarks.regions_quality import around, closed, lands, silhouettes, spine
-from geoanalogy.regions.evidence import EXPONENTS, FLOOR, SPREAD
+from geoanalogy.regions.evidence import EXPONENTS, FLOOR, SPREAD, trusted
 from geoanalogy.regions.standing import least_shown
 
 Array = NDArray[np.float64]
@@ -142,7 +142,8 @@ def judged(some: Sequence[Example], exponents: Array) -> list[str]:
     options = ga.RegionOptions()
     first, shown, clean, errors = [], [], [], []
     for e in some:
-        similarity = np.exp(e.factors @ exponents / SPREAD)
+        coverage = np.exp(e.factors[:, NAMES.index("coverage")])
+        similarity = np.exp(e.factors @ exponents / SPREAD) * trusted(coverage)
         order = np.argsort(-similarity, kind="stable")
         similarity, right, wrong, error = similarity[order], e.right[order], e.wrong[order], e.error[order]
         above = similarity >= least_shown(similarity, options.threshold, options.contrast)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..geometry.contours import Complex, Floats, even
 from .alignment import GAIN, Alignment
@@ -54,6 +54,8 @@ AGREEING = 0.06
 LOOKED_AT, MOST_CHAINS = 8, 500
 #: Root of the product of the sums of squared turns (square radians) below which two lines are evenly bent, and alike.
 LEAST_SPREAD = 1e-3
+#: Coverage below which a match is a guess: whatever else is measured, is measured on too few lines to say much.
+COVERED = 0.3
 #: Least value of a factor, so that one alone never says everything.
 FLOOR = 0.02
 
@@ -105,9 +107,25 @@ class Evidence:
 
     @property
     def similarity(self) -> float:
-        """The factors' weighted product, 0 to 1."""
+        """The factors' weighted product, 0 to 1; less for a guess."""
         total = sum(weight * np.log(max(getattr(self, name), FLOOR)) for name, weight in EXPONENTS.items())
-        return float(np.exp(total / SPREAD))
+        return float(np.exp(total / SPREAD) * trusted(self.coverage))
+
+
+def trusted(coverage: ArrayLike) -> NDArray[np.float64]:
+    """Share of a similarity that is left where it was measured on few of the query's lines.
+
+    Parameters
+    ----------
+    coverage : (...) float
+
+    Returns
+    -------
+    (...) float
+        1 from COVERED on, and falling with the square of the coverage below.
+    """
+    share = np.minimum(1.0, np.asarray(coverage, dtype=np.float64) / COVERED)
+    return np.asarray(share**2, dtype=np.float64)
 
 
 def support(fit: Fit) -> Floats:

@@ -16,6 +16,7 @@ from .marks import laid, of_marks
 from .options import RegionOptions
 from .query import Query
 from .refinement import Refined
+from .retraced import retraced
 from .standing import least_shown
 from .transformation import Nodes, TransformationFunction
 
@@ -220,6 +221,9 @@ def matching(
                 np.array([np.concatenate([f.position, f.factor]) for f in functions]),
                 np.array([f.mirrored for f in functions]),
             )
+            weak = np.flatnonzero(corners_met(chained, most) < 1.0)
+            again = retraced(contours, region, fitter, [fitted[i] for i in weak], options.mirrored)
+            chained[weak] = np.maximum(chained[weak], again)
             fits = [
                 (fit, evidence(fitter, region, fit, (float(c), most), float(a), options.joint_tolerance))
                 for fit, c, a in zip(fitted, chained, along, strict=True)

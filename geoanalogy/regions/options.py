@@ -15,8 +15,9 @@ class RegionOptions:
     ----------
     threshold : float
         How far a match must stand out of its drawing to be shown (`geoanalogy.regions.standing`), 0 to 1; 0 shows all.
-        The least similarity that follows from it is the `threshold` of the matches. They keep their similarity, so a
-        slider filters them without computing anything again (`Matches.above`).
+        The least similarity that follows from it, at least the middle of the widest gap between similarities, is the
+        `threshold` of the matches. They keep their similarity, so a slider filters them without computing anything
+        again (`Matches.above`).
     contrast : float
         The same as a share of how far the best one does: where one place is much more alike than all others, the
         others are clutter.
@@ -46,8 +47,8 @@ class RegionOptions:
         Matches that are returned at most.
     """
 
-    threshold: float = 0.33
-    contrast: float = 0.65
+    threshold: float = 0.45
+    contrast: float = 0.7
     query_kind: str = "auto"
     query_points: int = 50
     reach: float = 0.1

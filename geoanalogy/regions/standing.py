@@ -2,7 +2,8 @@
 
 The same similarity does not say the same everywhere. A rich silhouette is never matched as well as a plain one, and
 what resembles it by chance even less; a part with few corners resembles many things. What else the drawing has tells:
-a match stands out so far as it is alike by itself, or much more so than the clutter of its own drawing.
+a match stands out so far as it is alike by itself, or much more so than the clutter of its own drawing. And what
+belongs together is alike to about one degree: below the widest gap between the similarities of a drawing lies clutter.
 """
 
 import numpy as np
@@ -54,11 +55,13 @@ def least_shown(every: Floats, threshold: float, contrast: float) -> float:
     Returns
     -------
     float
-        0 where all are shown.
+        0 where all are shown; else no less than the middle of the widest gap.
     """
     if not len(every):
         return 0.0
     needed = max(threshold, contrast * float(standing(every[:1], every)[0]))
+    if needed <= 0.0:
+        return 0.0
     low, high = 0.0, 1.0
     for _ in range(50):  # standing ascends: bisection, to the last digit
         middle = 0.5 * (low + high)
@@ -66,4 +69,21 @@ def least_shown(every: Floats, threshold: float, contrast: float) -> float:
             low = middle
         else:
             high = middle
-    return low
+    return max(low, middle_of_gap(every))
+
+
+def middle_of_gap(every: Floats) -> float:
+    """The middle of the widest gap between similarities.
+
+    Parameters
+    ----------
+    every : (n,) float
+        Descending. Below all of them is the usual clutter, which a drawing may not show.
+
+    Returns
+    -------
+    float
+    """
+    steps = np.maximum(np.append(every, USUAL), USUAL)
+    widest = int(np.argmax(-np.diff(steps)))
+    return float(steps[widest : widest + 2].mean())

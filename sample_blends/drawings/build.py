@@ -152,14 +152,14 @@ def record(edit: Edit) -> bpy.types.Node:
     points = np.column_stack([edit.query, np.zeros(len(edit.query))])
     query = region_queries.add_query(context, [points], edit.closed, name=edit.name)
     query[PLACES] = json.dumps([np.round(truth(np.asarray(edit.query)), 4).tolist() for truth in edit.truth])
-    steps = region_recording.region_steps(context, query, options_of(edit), threshold=edit.threshold)
+    steps = region_recording.region_steps(context, query, options_of(edit))
     node = run(steps)
     wrong = mistaken(edit, node)
     if wrong:
         decide(context, wrong, "reject")
     low, high = np.array(edit.region.bounds).reshape(2, 2)
     image = image_of(edit.name, painted(edit.paint, low, high, edit.pixels))
-    run(region_recording.image_steps(context, node, image, edit.width))
+    run(region_recording.image_steps(context, node, image))
     return node
 
 

@@ -164,7 +164,6 @@ def picture() -> Picture:
                 [then(home, w) for w in warps[1:]],
                 # Mirrored, a butterfly looks the same.
                 options={"mirrored": False},
-                threshold=0.125,
             )
         ],
         garden,

@@ -136,7 +136,7 @@ def picture() -> Picture:
         "clovers",
         "3.6a",
         strokes,
-        [Edit("clover", warps[0](ring), lambda p: green(home(p)), [then(home, w) for w in warps[1:]], threshold=0.4)],
+        [Edit("clover", warps[0](ring), lambda p: green(home(p)), [then(home, w) for w in warps[1:]])],
         meadow,
         (0.0, 0.0),
         (16.0, 10.0),

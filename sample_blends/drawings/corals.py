@@ -101,9 +101,7 @@ def picture() -> Picture:
                 lambda p: red(home(p)),
                 [then(home, w) for w in warps[1:]],
                 closed=False,
-                options={"reach": 0.12},
-                threshold=0.09,
-                width=0.48,
+                options={"reach": 0.48},
             )
         ],
         sea,

@@ -176,7 +176,7 @@ def picture() -> Picture:
         "3.6b",
         strokes,
         [
-            Edit("fish", swim[0](ring), lambda p: scales(home(p)), [then(home, w) for w in swim[1:]], threshold=0.2),
+            Edit("fish", swim[0](ring), lambda p: scales(home(p)), [then(home, w) for w in swim[1:]]),
             Edit(
                 "seaweed",
                 grow[0](np.stack([np.linspace(0.03, 2.97, 40), np.zeros(40)], 1)),
@@ -184,7 +184,6 @@ def picture() -> Picture:
                 [then(root, w) for w in grow[1:]],
                 closed=False,
                 options={"reach": 0.17},
-                threshold=0.15,
             ),
         ],
         water,

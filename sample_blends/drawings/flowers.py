@@ -155,7 +155,7 @@ def picture() -> Picture:
         "flowers",
         "3.7h",
         strokes,
-        [Edit("leaf", ring, lambda p: green(home(p)), [then(home, w) for w in warps[1:]], threshold=0.55)],
+        [Edit("leaf", ring, lambda p: green(home(p)), [then(home, w) for w in warps[1:]])],
         wall,
         (0.0, 0.0),
         (16.0, 10.0),

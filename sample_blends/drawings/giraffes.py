@@ -165,7 +165,7 @@ def picture() -> Picture:
         [
             Edit(
                 "giraffe", warps[0](ring), lambda p: coat(home(p)), [then(home, w) for w in warps[1:]],
-                options={"query_points": 80}, threshold=0.15,
+                options={"query_points": 80},
             )
         ],
         savanna,

@@ -126,7 +126,7 @@ def picture() -> Picture:
         "harlequin",
         "3.6e",
         strokes,
-        [Edit("doll", warps[0](ring), lambda p: costume(home(p)), [then(home, w) for w in warps[1:]], threshold=0.2)],
+        [Edit("doll", warps[0](ring), lambda p: costume(home(p)), [then(home, w) for w in warps[1:]])],
         stage_floor,
         (0.0, 0.0),
         (16.0, 10.0),

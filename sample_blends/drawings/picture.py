@@ -37,10 +37,6 @@ class Edit:
         That differ from the defaults of `RegionOptions`.
     pixels : int
         Of the longer side of its image.
-    threshold : float or None
-        Least similarity of what is painted; None: as found right by the engine.
-    width : float
-        Of a stroke: how far the image reaches on either side, as a share of its length; 0: as far as the match does.
     """
 
     name: str
@@ -50,14 +46,12 @@ class Edit:
     closed: bool = True
     options: dict[str, Any] = field(default_factory=dict)
     pixels: int = 448
-    threshold: float | None = None
-    width: float = 0.0
 
     @property
     def region(self) -> shapely.Geometry:
         """What the image covers."""
         kind = "region" if self.closed else "stroke"
-        reach = self.width or self.options.get("reach", ga.RegionOptions().reach)
+        reach = self.options.get("reach", ga.RegionOptions().reach)
         return region_of(np.asarray(self.query), ga.RegionOptions(query_kind=kind, reach=reach))
 
 

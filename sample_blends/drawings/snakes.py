@@ -128,8 +128,8 @@ def picture() -> Picture:
         "3.1",
         strokes,
         [
-            Edit("skin", ring, lambda p: skin(home(p)), truth, pixels=900, options=OPTIONS, threshold=0.3),
-            Edit("pattern", ring, lambda p: pattern(home(p)), truth, pixels=900, options=OPTIONS, threshold=0.3),
+            Edit("skin", ring, lambda p: skin(home(p)), truth, pixels=900, options=OPTIONS),
+            Edit("pattern", ring, lambda p: pattern(home(p)), truth, pixels=900, options=OPTIONS),
         ],
         desert,
         (0.0, 0.0),

@@ -178,8 +178,9 @@ def picture() -> Picture:
                 places[0](dense),
                 lambda p, home=home, paint=paint: paint(home(p)),
                 [then(home, w) for w in places[1:]],
+                # Mirrored, a dart looks nearly the same.
+                options={"mirrored": name != "darts"},
                 pixels=320,
-                threshold=0.4,
             )
         )
     return Picture("sun", "3.7i", strokes, edits, sky, (0.0, 0.0), (16.0, 10.0))

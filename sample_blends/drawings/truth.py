@@ -2,7 +2,7 @@
 
 For the first edit of every picture, or with ``--all`` for every edit: how many refined correspondences there are, how
 many of them lie on a place where the edit belongs (plain and weighted by their confidence), which of these places are
-found, and how far off they are.
+found of what is shown at first, by the automatic threshold, what else is shown, and how far off the found ones are.
 """
 
 from __future__ import annotations
@@ -98,8 +98,6 @@ def measure(picture: Picture, edit: Edit) -> Row:
     """Match an edit of a picture, and compare with what is known."""
     drawing = ga.Drawing(picture.polylines)
     matches = ga.match_regions(drawing, edit.query, options_of(edit))
-    if edit.threshold is not None:
-        matches = matches.above(edit.threshold)
     at = probes(edit)
     off = np.array([[np.median(errors(m.map, t, at)) for t in edit.truth] for m in matches]).reshape(
         len(matches), len(edit.truth)
@@ -162,16 +160,22 @@ def main() -> None:
     parser.add_argument("--document", type=Path, help="write the table into this document, in place of its own")
     arguments = parser.parse_args()
     print("\n".join(HEAD))
-    rows = []
+    rows, found, places, false = [], 0, 0, 0
     for scene in arguments.scenes:
         picture = picture_of(scene)
         for i, edit in enumerate(picture.edits if arguments.all else picture.edits[:1]):
             r = measure(picture, edit)
+            found, places, false = found + r.found, places + r.places, false + r.false
             rows.append(
                 f"|{'' if i else f' {picture.figure} {r.scene}'} | {r.edit} | {r.count} | {100 * r.inliers:.2f} % "
                 f"| {100 * r.weighted:.2f} % | {r.found} of {r.places} | {r.false} | {100 * r.error:.2f} % |"
             )
             print(rows[-1], flush=True)
+    right = found / max(found + false, 1)
+    rows.append(
+        f"| all | | | | | {found} of {places} ({found / max(places, 1):.0%}) | {false} ({right:.0%} are right) | |"
+    )
+    print(rows[-1])
     if arguments.document is not None:
         arguments.document.write_text(written(arguments.document, rows), encoding="utf-8")
 

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import geoanalogy as ga
-from geoanalogy.regions.standing import HALFWAY, least_shown, standing
+from geoanalogy.regions.standing import HALFWAY, least_shown, middle_of_gap, standing
 
 SIMILARITIES = st.lists(st.floats(0.0, 1.0), min_size=1, max_size=12)
 
@@ -35,7 +35,28 @@ def test_what_is_shown_stands_out_and_what_is_not_does_not(values, threshold, co
     found = standing(every, every)
     needed = max(threshold, contrast * found[0])
     assert (found[every >= least] >= needed - 1e-6).all()
-    assert (found[every < least] < needed + 1e-6).all()
+    hidden = (every < least) & (every > middle_of_gap(every))
+    assert (found[hidden] < needed + 1e-6).all()
+
+
+@pytest.mark.parametrize(
+    ("similarities", "shown"),
+    [
+        ([0.55, 0.5, 0.43, 0.42, 0.38, 0.12, 0.1], 5),
+        ([0.95, 0.9, 0.4, 0.38, 0.37], 2),
+        ([0.8, 0.7, 0.65], 3),
+        ([0.9], 1),
+        ([0.09, 0.05], 0),
+    ],
+)
+def test_what_lies_below_the_widest_gap_is_clutter(similarities, shown):
+    every = np.array(similarities)
+    assert (every >= least_shown(every, 0.2, 0.0)).sum() == shown
+
+
+def test_a_threshold_in_a_gap_lies_in_its_middle():
+    assert middle_of_gap(np.array([0.9, 0.7, 0.3, 0.2])) == pytest.approx(0.5)
+    assert middle_of_gap(np.array([0.9, 0.8])) == pytest.approx(0.45)
 
 
 def test_all_is_shown_without_threshold_and_contrast():

@@ -77,7 +77,7 @@ class MatchingSettings:
     )
     contrast: FloatProperty(
         name="Contrast",
-        description="Least similarity as a share of the best region's: what is much less alike is clutter",
+        description="How far a region must stand out, as a share of how far the best does: the others are clutter",
         min=0.0,
         max=1.0,
         default=_PLAIN.contrast,
