@@ -121,6 +121,9 @@ def apply(arguments: argparse.Namespace, progress: Progress) -> str:
     if drawn:  # before the long work, in case there is no Blender
         from .blender.writing import buildings
     trees = [(path, OperationsTree.load(path)) for path in arguments.tree]
+    for path, recorded in trees:
+        if not recorded.nodes:
+            raise InputError(f"{path.name} has no operations; record some and save it again")
     tree = merged([(path.stem, recorded) for path, recorded in trees])
     scene, problems = read(arguments, tree)
     choices = Choices(
@@ -162,6 +165,11 @@ def read(arguments: argparse.Namespace, tree: OperationsTree) -> tuple[Scene, li
     -------
     Scene
     list of str
+
+    Raises
+    ------
+    InputError
+        Where the parcels cannot be read, or none of them can be used.
     """
     if arguments.parcels is None:
         from .blender.open_parcels import open_parcels
@@ -169,6 +177,9 @@ def read(arguments: argparse.Namespace, tree: OperationsTree) -> tuple[Scene, li
         scene, problems = open_parcels()
     else:
         scene, problems = read_parcels(arguments.parcels, label=arguments.label, table=arguments.labels)
+    if not scene.polygons and problems:
+        more = f", and {len(problems) - 1} more like this" if len(problems) > 1 else ""
+        raise InputError(f"no polygon can be used: {problems[0]}{more}")
     built_on = wanted_labels(tree)
     return without_overlaps(of_few_vertices(scene, built_on, problems), built_on, problems), problems
 

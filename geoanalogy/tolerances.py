@@ -53,6 +53,9 @@ UNCLOSED_EDGES = 1.5
 #: end of a lasso.
 LEAST_SIMPLE_SHARE = 0.9
 
+#: Share of a parcel's area above which another one of its label inside it is the same once more: nobody builds on both.
+TWIN_SHARE = 0.5
+
 #: Total turn, in radians, of the lines in a query below which they are straight (20 degrees).
 LEAST_QUERY_TURN = math.radians(20.0)
 

@@ -54,17 +54,19 @@ def draw(
     ground: tuple[str, float] = ("hall stone", -0.02),
     lens: float = 70.0,
     seen: np.ndarray | None = None,
+    visibility: float | None = None,
 ) -> None:
     """Render meshes in the finishes that their materials name.
 
     ``turn`` and ``elevation`` say where the viewer stands, in degrees; ``ground`` is its finish and height. The camera
-    shows the points ``seen``, of shape (n, 3); where there are none, everything.
+    shows the points ``seen``, of shape (n, 3); where there are none, everything. Haze takes most of what is further
+    away than ``visibility`` metres, under a blue sky.
     """
     import bpy
 
     from geoanalogy.blender.writing.buildings import mesh_data
 
-    from . import stage
+    from . import haze, stage
     from .library.materials import material
 
     scene = stage.clear()
@@ -79,4 +81,7 @@ def draw(
     )
     points = whole.vertices if seen is None else seen
     stage.camera(scene, points, elevation=elevation, turn=turn, lens=lens, margin=0.02)
+    if visibility is not None:
+        haze.light(scene)
+        haze.Haze().reach(visibility)
     stage.render(scene, picture)

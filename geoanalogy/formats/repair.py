@@ -20,6 +20,7 @@ from ..tolerances import (
     SURFACE_GRID,
     THINNEST_PARCEL,
     TOUCHING_SHARE,
+    TWIN_SHARE,
 )
 from .outlines import Outline, Points
 
@@ -230,6 +231,7 @@ def without_overlaps(scene: Scene, labels: frozenset[str] | None, problems: list
         Of the parcels that are built on, which this is about; None: all.
     problems : list of str
         Takes a sentence for every parcel that was cut back, or left out because less than half of it would be left.
+        A parcel inside another one is left alone, unless it is of the same label and more than half as large.
 
     Returns
     -------
@@ -249,13 +251,17 @@ def without_overlaps(scene: Scene, labels: frozenset[str] | None, problems: list
             continue
         common = made[a].intersection(made[b]).area
         smaller = min(made[a].area, made[b].area)
-        # What lies in another one altogether is its child, and what hardly overlaps touches.
-        if common <= TOUCHING_SHARE * smaller or common >= LEAST_SIMPLE_SHARE * smaller:
-            continue
         first, second = (scene.polygons[those[k]] for k in (a, b))
+        inside = common >= LEAST_SIMPLE_SHARE * smaller
+        twins = first.label == second.label and smaller > TWIN_SHARE * max(made[a].area, made[b].area)
+        # What lies in another one altogether is its child, unless it is that one again; what hardly overlaps touches.
+        if common <= TOUCHING_SHARE * smaller or (inside and not twins):
+            continue
         # On a grid: edges that lie on one line but for rounding would leave spikes, which cross themselves.
         left = max(
-            shapely.get_parts(shapely.difference(made[b], made[a], grid_size=SURFACE_GRID)), key=lambda part: part.area
+            shapely.get_parts(shapely.difference(made[b], made[a], grid_size=SURFACE_GRID)),
+            key=lambda part: part.area,
+            default=shapely.Polygon(),
         )
         said = f"polygon {second.id!r} overlaps {first.id!r} by {common / made[b].area:.0%} of its area"
         if left.area < 0.5 * shapes[b].area:

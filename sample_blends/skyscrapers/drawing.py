@@ -41,6 +41,9 @@ FINISHES = {
 #: Degrees above the horizon that the viewer stands.
 ELEVATION = 17.0
 
+#: Metres at which haze takes most of what is seen: little of the towers, and all of the horizon.
+VISIBILITY = 2000.0
+
 #: The stones of walls, and what belts, cornices and spandrels are of beside each.
 STONES = (
     ("sandstone", "plaster cream"),
@@ -91,7 +94,8 @@ def main() -> int:
     whole = [*built, *surroundings(lots)]
     for k, turn in enumerate(arguments.turn):
         name = arguments.output if not k else arguments.output.with_stem(f"{arguments.output.stem}-{k + 1}")
-        draw(whole, name, turn, ELEVATION, tuple(arguments.size), arguments.samples, ("meadow", -0.5), 50.0, seen)
+        size, ground = tuple(arguments.size), ("meadow", -0.5)
+        draw(whole, name, turn, ELEVATION, size, arguments.samples, ground, 50.0, seen, VISIBILITY)
     return 0
 
 

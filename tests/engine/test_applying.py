@@ -153,6 +153,23 @@ def test_the_command_fails_with_a_sentence(files, capsys):
     assert not (files / "out.obj").exists()
 
 
+def test_parcels_none_of_which_can_be_used_are_named(files, capsys):
+    path = parcels(files, TINY, CROSSING)
+    command = ["apply", "--tree", str(files / "tree.json"), "--parcels", str(path), "--output", str(files / "out.obj")]
+    assert main(command) == ExitCode.BAD_INPUT
+    said = capsys.readouterr().err
+    assert "geoanalogy: no polygon can be used: parcels.geojson, " in said
+    assert "'crossing'" in said and "and 1 more like this" in said
+
+
+def test_a_tree_without_operations_is_named(files, capsys):
+    OperationsTree().save(files / "bare.json")
+    path = parcels(files, GOOD)
+    command = ["apply", "--tree", str(files / "bare.json"), "--parcels", str(path), "--output", str(files / "out.obj")]
+    assert main(command) == ExitCode.BAD_INPUT
+    assert "geoanalogy: bare.json has no operations; record some and save it again" in capsys.readouterr().err
+
+
 def test_it_can_be_cancelled(files):
     with pytest.raises(Cancelled):
         apply_file(files / "tree.json", parcels(files, GOOD), progress=lambda *_: False)

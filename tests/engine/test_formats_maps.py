@@ -210,6 +210,26 @@ def test_parcels_that_overlap_are_cut_back_or_left_out():
     assert without_overlaps(made, frozenset({"plot"}), []) is made
 
 
+def test_a_parcel_that_is_there_twice_counts_once():
+    scene = Scene(
+        [
+            Polygon(rectangle(20, 30), "plot", "one"),
+            Polygon(rectangle(20, 30), "plot", "again"),
+            Polygon(rectangle(18, 26, (1, 1)), "plot", "smaller"),
+            Polygon(rectangle(22, 32, (-1, -1)), "plot", "larger"),
+            Polygon(rectangle(20, 30), "lawn", "other label"),
+            Polygon(rectangle(10, 20, (2, 2)), "plot", "less than half"),
+        ]
+    )
+    problems = []
+    made = without_overlaps(scene, frozenset({"plot", "lawn"}), problems)
+    assert [p.id for p in made.polygons] == ["one", "other label", "less than half"]
+    assert problems == [
+        f"polygon {id!r} overlaps 'one' by {share} of its area and is left out; correct one of their outlines"
+        for id, share in (("again", "100%"), ("smaller", "100%"), ("larger", "85%"))
+    ]
+
+
 @pytest.mark.parametrize("angle", [3.0239239199893424, 3.4814525162841092, 5.819595751463642, 3.27494836830566])
 def test_edges_on_one_line_leave_no_spikes(angle):
     turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
