@@ -47,6 +47,9 @@ SURFACE, SURFACES = "ga_surface", "ga_surfaces"
 #: The collection that holds all results, with a collection per operation.
 COLLECTION = "GeoAnalogy"
 
+#: Longest name of a node in bytes: Blender would cut the rest off.
+LONGEST_NODE_NAME = 63
+
 #: Identifiers of the node tree, its nodes and its sockets.
 TREE, OPERATION_NODE, LAYOUT_SOCKET = "GeoAnalogyTree", "GeoAnalogyOperation", "GeoAnalogyLayout"
 

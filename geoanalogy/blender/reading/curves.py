@@ -121,7 +121,8 @@ def stroke_lines(data: bpy.types.ID, name: str) -> Iterator[Line]:
     Line
     """
     for layer, drawing in shown_drawings(data):
-        if not len(drawing.curve_offsets):
+        # An empty drawing has one offset by its length, and none by what it hands out.
+        if len(drawing.curve_offsets) < 2:
             continue
         offsets = _values(drawing.curve_offsets, "value", np.int32)
         position = _attribute(drawing, "position", "vector", np.zeros((offsets[-1], 3)))

@@ -22,11 +22,17 @@ def free_id(tree: bpy.types.NodeTree | None, wanted: str) -> str:
     Returns
     -------
     str
-        With a number behind it where need be.
+        With a number behind it where need be, and cut to what Blender keeps of a name.
     """
     taken = set() if tree is None else {node.name for node in tree.nodes}
-    names_ = [wanted, *(f"{wanted} {i}" for i in range(2, len(taken) + 3))]
-    return next(name for name in names_ if name not in taken)
+    numbers = ["", *(f" {i}" for i in range(2, len(taken) + 3))]
+    return next(name for number in numbers if (name := _cut(wanted, number)) not in taken)
+
+
+def _cut(name: str, number: str) -> str:
+    """A name with a number, no longer than a node's may be; letters stay whole."""
+    room = names.LONGEST_NODE_NAME - len(number)
+    return name.encode()[:room].decode(errors="ignore") + number
 
 
 def leaf(nodes: Sequence[bpy.types.Node], active: bpy.types.Node | None) -> bpy.types.Node | None:

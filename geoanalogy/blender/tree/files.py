@@ -19,9 +19,6 @@ from .writing_nodes import BRANCH_GAP, NODE_GAP, add_node
 #: Nodes beside each other before a chain goes on in the next row.
 LONGEST_ROW = 12
 
-#: Longest name of a node in bytes: Blender would cut the rest off.
-LONGEST_NAME = 63
-
 
 def import_tree(scene: bpy.types.Scene, path: Path) -> bpy.types.NodeTree:
     """Read a tree from a file; it becomes the scene's, which keeps the one that it had as a data-block of its own.
@@ -118,8 +115,8 @@ def export_tree(scene: bpy.types.Scene, path: Path) -> int:
 
 def _require_names(nodes: Sequence[Node]) -> None:
     for node in nodes:
-        if len(node.id.encode()) > LONGEST_NAME:
-            raise InputError(f"node {node.id!r} has a name of more than {LONGEST_NAME} letters; shorten it")
+        if len(node.id.encode()) > names.LONGEST_NODE_NAME:
+            raise InputError(f"node {node.id!r} has a name of more than {names.LONGEST_NODE_NAME} letters; shorten it")
 
 
 def _add_nodes(tree: bpy.types.NodeTree, nodes: Sequence[Node]) -> None:
