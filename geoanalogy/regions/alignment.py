@@ -18,7 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.contours import Complex, Contours, Floats, Indices
-from .courses import Course, lengths
+from .courses import Course, Stretch, lengths
+from .largest import largest
 from .query import Run
 
 #: Samples of the longest query stretch.
@@ -47,6 +48,8 @@ MARGIN = 3
 COARSE, EACH_TARGET, MOST_BLOCKS = 0.4, 3, 40
 #: Columns that are compared at once: what fits into the processor's cache.
 WIDTH = 4_000
+#: Number by which samples of the query are counted beside samples of the target.
+PAST = 1 << 12
 
 
 @dataclass(frozen=True)
@@ -111,27 +114,28 @@ def align(contours: Contours, sources: list[Run], targets: list[Run], mirrored: 
     longest = float(lengths(contours, sources[:1])[0])
     out: list[Alignment] = []
     sources, targets = sources[:MOST_SOURCES], targets[:MOST_TARGETS]
+    lines = [Stretch.of(contours, run) for run in targets]
     for run, length in zip(sources, lengths(contours, sources), strict=True):
         count = round(SAMPLES * length / longest)
         if count < LEAST_SAMPLES:
             break
-        source = _oriented(contours, run, count)
+        line = Stretch.of(contours, run)
         coarse = max(LEAST_SAMPLES, round(COARSE * count))
         blocks = list(_blocks(targets, count, run.closed, mirrored))
         if len(blocks) > EACH_TARGET:
-            walks = _walks(contours, targets, blocks, _oriented(contours, run, coarse), length / longest)
+            walks = _walks(lines, blocks, _oriented(line, coarse), length / longest)
             best = np.concatenate([walk.best() for walk in walks])
             blocks = [blocks[i] for i in _leading(blocks, best)]
-        for walk in _walks(contours, targets, blocks, source, length / longest):
+        for walk in _walks(lines, blocks, _oriented(line, count), length / longest):
             out += walk.alignments()
     out.sort(key=lambda a: -a.score)
     return out[:most]
 
 
-def _oriented(contours: Contours, run: Run, count: int) -> Course:
+def _oriented(line: Stretch, count: int) -> Course:
     """A stretch sampled with `count` points; closed ones counter-clockwise."""
-    course = Course.along(contours, run, count)
-    return course.backward() if run.closed and course.clockwise else course
+    course = line.course(count)
+    return course.backward() if line.closed and course.clockwise else course
 
 
 def _blocks(targets: list[Run], count: int, source_closed: bool, mirrored: bool) -> Iterator[_Block]:
@@ -161,21 +165,19 @@ def _leading(blocks: list[_Block], best: Floats) -> list[int]:
     return sorted(kept)
 
 
-def _walks(
-    contours: Contours, targets: list[Run], blocks: Iterable[_Block], source: Course, share: float
-) -> Iterator["_Walk"]:
+def _walks(lines: list[Stretch], blocks: Iterable[_Block], source: Course, share: float) -> Iterator["_Walk"]:
     """Local alignments of a stretch of the query with blocks, as many at once as are WIDTH columns."""
     count = len(source.points)
     courses: list[tuple[Course, bool]] = []
     width = 0
     sampled: dict[tuple[int, int], Course] = {}
     for block in blocks:
-        run, n = targets[block.target], max(4, round(block.share * count))
+        line, n = lines[block.target], max(4, round(block.share * count))
         if (block.target, n) not in sampled:
-            sampled[block.target, n] = _oriented(contours, run, n)
+            sampled[block.target, n] = _oriented(line, n)
         course = sampled[block.target, n]
         if block.flip:
-            course = course.reflected().backward() if run.closed else course.reflected()
+            course = course.reflected().backward() if line.closed else course.reflected()
         courses.append((course.backward() if block.backward else course, block.flip))
         width += n + MARGIN
         if width > WIDTH:
@@ -206,29 +208,26 @@ class _Walk:
         rows = 2 * self.count if source.closed else self.count
         self.score = np.zeros((rows, width), np.float32)
         self.step = np.full((rows, width), -1, np.int8)
-        self.passed = np.zeros((rows, width), np.int16)  # samples of the query since the alignment began
-        self.gone = np.zeros((rows, width), np.int16)  # samples of the target
+        # samples since the alignment began: of the query times PAST, and of the target
+        self.since = np.zeros((rows, width), np.int32)
         self._fill()
 
-    def _row(self) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int16], NDArray[np.bool_], Indices]:
+    def _row(self) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int32], Indices, Indices]:
         """Of every column heading, count of corners, length of its course if closed; margins, and those that wrap."""
         width = self.score.shape[1]
         heading, corner = np.zeros(width, np.float32), np.zeros(width, np.float32)
-        room = np.full(width, 10**4, np.int16)
-        margin = np.ones(width, bool)
-        wrapped: list[Indices] = [np.zeros(0, np.intp)]
+        room = np.full(width, PAST, np.int32)
+        margin = (self.start[:, None] - np.arange(MARGIN, 0, -1)).ravel()
+        wrapped = np.repeat([course.closed for course, _ in self.courses], MARGIN)
         for (course, _), start in zip(self.courses, self.start, strict=True):
             n = len(course.points)
             here, before, last = slice(start, start + n), slice(start - MARGIN, start), slice(-MARGIN, None)
-            margin[here] = False
             heading[here], corner[here] = course.heading - course.heading[0], course.corners
             if course.closed:
-                twice = course.twice()
+                around, more = course.once_round
                 room[here] = n
-                heading[before] = heading[here][last] - (twice.heading[n] - twice.heading[0])
-                corner[before] = corner[here][last] - (twice.corners[n] - twice.corners[0])
-                wrapped.append(np.arange(start - MARGIN, start))
-        return heading, corner, room, margin, np.concatenate(wrapped)
+                heading[before], corner[before] = heading[here][last] - around, corner[here][last] - more
+        return heading, corner, room, margin, margin[wrapped]
 
     def _fill(self) -> None:
         """All states, row by row."""
@@ -236,49 +235,56 @@ class _Walk:
         heading, corner, room, margin, wrapped = self._row()
         period = room[wrapped + MARGIN]
         walked = self.source.twice() if self.source.closed else self.source
-        own_heading, own_corner = walked.heading.astype(single), walked.corners.astype(single)
         unit = self.share / self.count
         reward = [single(unit * (GAIN * min(s) - STRETCH * s[0] * np.log(s[1] / s[0]) ** 2)) for s in STEPS]
-        turn = {b: heading[b:] - heading[:-b] for _, b in STEPS}
-        met = {b: corner[b:] - corner[:-b] for _, b in STEPS}
-        value = np.empty((len(STEPS), width), single)
-        since, along = np.zeros((2, len(STEPS), width), np.int16)
-        columns = np.arange(width)
-        going: dict[int, list[NDArray[np.float32]]] = {}  # scores of rows, by steps that closed courses have left
+        turn, met = np.zeros((2, len(STEPS), width), single)
+        own_turn, own_met = np.zeros((2, rows, len(STEPS), 1), single)
+        weight = single(np.sqrt(CORNER))
+        for k, (a, b) in enumerate(STEPS):
+            turn[k, b:], met[k, b:] = heading[b:] - heading[:-b], weight * (corner[b:] - corner[:-b])
+            own_turn[a:, k, 0] = walked.heading[a:] - walked.heading[:-a]
+            own_met[a:, k, 0] = weight * (walked.corners[a:] - walked.corners[:-a])
+        back = np.array([a * width + b for a, b in STEPS])  # to the state before, in the flat arrays of all states
+        passed = np.array([a * PAST + b for a, b in STEPS], np.int32)
+        value, cost, missed = np.empty((3, len(STEPS), width), single)
+        top, best = np.empty(width, single), np.empty(width, np.int8)
+        columns, since = np.arange(width), self.since.reshape(-1)
+        going: dict[int, NDArray[np.float32]] = {}  # scores of rows, by steps that closed courses have left
         for i in range(rows):
-            value[:] = -np.inf
             for k, (a, b) in enumerate(STEPS):
+                value[k, :b] = -np.inf
                 if a > i:
+                    value[k] = -np.inf
                     continue
-                cost = turn[b] - (own_heading[i] - own_heading[i - a])
-                cost *= cost
-                missed = met[b] - (own_corner[i] - own_corner[i - a])
-                missed *= missed
-                missed *= single(CORNER)
-                cost += missed
-                np.subtract(going[i - a][b - 1], cost, out=value[k, b:])
-                value[k, b:] += reward[k]
-                np.add(self.passed[i - a, :-b], np.int16(a), out=since[k, b:])
-                np.add(self.gone[i - a, :-b], np.int16(b), out=along[k, b:])
+                np.add(going[i - a][b - 1, :-b], reward[k], out=value[k, b:])
                 if i >= self.count:
-                    value[k, since[k] > self.count] = -np.inf
-            value[:, margin] = -np.inf
-            best = value.argmax(0)
-            top = value[best, columns]
+                    too_far = self.since[i - a, :-b] >= (self.count - a + 1) * PAST
+                    np.copyto(value[k, b:], single(-np.inf), where=too_far)
+            np.subtract(turn, own_turn[i], out=cost)
+            cost *= cost
+            np.subtract(met, own_met[i], out=missed)
+            missed *= missed
+            cost += missed
+            value -= cost
+            largest(value, top, best)
+            top[margin] = 0.0
             on = top > 0.0
-            self.score[i] = np.where(on, top, 0.0)
-            self.score[i, margin] = -np.inf
-            self.step[i] = np.where(on, best, -1)
-            self.passed[i] = np.where(on, since[best, columns], 0)
-            self.gone[i] = np.where(on, along[best, columns], 0)
+            np.maximum(top, single(0.0), out=self.score[i])
+            self.step[i] = np.where(on, best, np.int8(-1))
+            np.multiply(
+                since.take(i * width + columns - back.take(best), mode="clip") + passed.take(best),
+                on,
+                out=self.since[i],
+            )
             reached = self.score[i].copy()
+            reached[margin] = -np.inf
             reached[wrapped] = reached[wrapped + period]
-            for state in (self.passed[i], self.gone[i]):
-                state[wrapped] = state[wrapped + period]
-            going[i] = [
-                np.where(self.gone[i, :-b] + np.int16(b) > room[b:], single(-np.inf), reached[:-b])
-                for b in range(1, MARGIN + 1)
-            ]
+            self.score[i, margin] = -np.inf
+            self.since[i, wrapped] = self.since[i, wrapped + period]
+            going[i] = np.empty((MARGIN, width), single)
+            gone = self.since[i] % PAST
+            for b in range(1, MARGIN + 1):
+                going[i][b - 1, :-b] = np.where(gone[:-b] + b > room[b:], single(-np.inf), reached[:-b])
             going.pop(i - MARGIN, None)
 
     def best(self) -> Floats:

@@ -50,8 +50,8 @@ ENOUGH = 15.0
 AS_GOOD = 0.8
 #: Mean distance, in extents of the query at the target's scale, at which a chain or alignment agrees with a fit to 0.6.
 AGREEING = 0.06
-#: Points of a chain or an alignment that are looked at, and chains that are, best first.
-LOOKED_AT, MOST_CHAINS = 8, 500
+#: Points of a chain or an alignment that are looked at.
+LOOKED_AT = 8
 #: Root of the product of the sums of squared turns (square radians) below which two lines are evenly bent, and alike.
 LEAST_SPREAD = 1e-3
 #: Coverage below which a match is a guess: whatever else is measured, is measured on too few lines to say much.
@@ -181,9 +181,8 @@ def agreement(
         Score of the best alignment.
     """
     chained = np.zeros((len(unknowns), *chains.most.shape))
-    some = chains.found[:MOST_CHAINS]
-    share = _agreeing(fitter, unknowns, mirrored, some)
-    for k, chain in enumerate(some):
+    share = _agreeing(fitter, unknowns, mirrored, chains.found)
+    for k, chain in enumerate(chains.found):
         here = chained[:, chain.grade, chain.run]
         np.maximum(here, chain.score * share[:, k], out=here)
     scores = np.array([a.score for a in alignments])
