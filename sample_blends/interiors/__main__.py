@@ -17,7 +17,7 @@ from geoanalogy.operations.applied import Applied
 
 from ..kitchens.drawing import FINISHES as KITCHEN_FINISHES
 from ..pictures import draw, finished
-from .furnishing import CUT, below, furnish, opened, walls
+from .furnishing import CUT, below, furnish, opened, stairs, walls
 from .storey import HEIGHT, Storey
 
 HOUSES = Path(__file__).resolve().parents[1] / "houses"
@@ -70,7 +70,7 @@ def meshes(applied: Applied, number: int, seed: int) -> Iterator[Mesh]:
     floor = Frame((x, y, z + CLEAR), storey.frame.x, storey.frame.y)
     pieces = [m for e in furniture if isinstance(m := e.mesh, Mesh)]
     cut = (below(m, CUT) for e in kitchens if isinstance(m := e.mesh, Mesh))
-    for mesh in (*walls(storey), *pieces, *(m for m in cut if m is not None)):
+    for mesh in (*walls(storey), *stairs(storey), *pieces, *(m for m in cut if m is not None)):
         yield finished(mesh.placed(floor), KITCHEN_FINISHES, "wall")
 
 

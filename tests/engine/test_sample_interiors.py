@@ -101,6 +101,17 @@ def test_a_facade_without_windows_has_a_hall(storey):
     assert hall.intersects(shapely.box(*storey.corridor)) and all(hall.distance(room) >= 0.1 for room in rooms)
 
 
+def test_stairs_rise_in_a_hall_up_to_the_cut(storey):
+    steps = list(furnishing.stairs(storey))
+    (hall,) = [box for box in storey.halls() if box[2] - box[0] <= furnishing.STAIRCASE]
+    assert len(steps) == 7
+    for k, step in enumerate(steps):
+        low, high = step.vertices.min(axis=0), step.vertices.max(axis=0)
+        assert low[2] == 0.0 and high[2] == pytest.approx(0.17 * (k + 1)) and high[2] <= furnishing.CUT
+        assert shapely.box(*hall).covers(shapely.box(*low[:2], *high[:2]))
+        assert shapely.box(*storey.corridor).distance(shapely.box(*low[:2], *high[:2])) > 1.0
+
+
 def test_rooms_are_furnished_by_what_was_recorded_elsewhere(storey, furnished):
     furniture, kitchens = furnished
     assert furniture.problems == kitchens.problems == ()
