@@ -296,18 +296,19 @@ class Lesson:
         return best_assignment(utility)[0].astype(np.float64)
 
     @cached_property
-    def _among_examples(self) -> dict[str, Match]:
+    def among_examples(self) -> dict[str, Match]:
+        """Agreement of the examples with each other."""
         return self.match(self.kept)
 
     @cached_property
     def gram(self) -> Array:
         """Similarity of every two examples (eq. 5.7), 1 on the diagonal, shape (m, m)."""
-        return self.similarities(self._among_examples)
+        return self.similarities(self.among_examples)
 
     @cached_property
     def _whole(self) -> Array:
         """The utility of each example with itself, shape (m,)."""
-        totals = np.sum([m.total for m in self._among_examples.values()], axis=0)
+        totals = np.sum([m.total for m in self.among_examples.values()], axis=0)
         return np.maximum(totals.diagonal(), 1e-9)
 
     def similarities(self, matches: dict[str, Match]) -> Array:
@@ -329,7 +330,7 @@ class Lesson:
         found = {}
         p = self.positive
         others = ~np.eye(len(p), dtype=bool)
-        for key, match in self._among_examples.items():
+        for key, match in self.among_examples.items():
             parts = []
             for value in (match.along_x, match.along_y, match.joint):
                 best = np.where(others, value[np.ix_(p, p)], 0.0).max(axis=1)

@@ -170,7 +170,8 @@ class PlacementModel:
                 index = index[without_overlaps(seen.boxes[index], score[index], drawn, self.options.allow_overlaps)]
             else:
                 index = index[np.argsort(-score[index], kind="stable")]
-            boxes, similar = refined(self.lesson, arrangement, seen, index)
+            allowed = self.options.allow_overlaps if least > 0 else 1.0
+            boxes, similar = refined(self.lesson, arrangement, seen, index, drawn, allowed)
             score = score[index]
             if least > 0:
                 boxes, similar, score = with_twins(self.lesson, arrangement, positive, boxes, similar, score)

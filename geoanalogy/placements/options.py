@@ -46,7 +46,7 @@ class PlacementOptions:
     aspect_tolerance: float = 1.0
     area_tolerance: float = 1.5
     mirrored: bool = False
-    allow_overlaps: float = 0.15
+    allow_overlaps: float = 0.02
     forbid_intersections: bool = False
     between: bool = True
 

@@ -4,9 +4,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .arrangement import Arrangement
-from .boxes import union_overlap
-from .construction import EQUALLY_ALIKE, ROUNDED
-from .habits import CONSTRUCTED
+from .boxes import overlap, union_overlap
+from .construction import EQUALLY_ALIKE, KEPT, ROUNDED
+from .habits import CONSTRUCTED, HABIT_FLOOR
 from .lesson import Lesson
 from .signature import signature
 from .survey import AROUND, SAME, Survey
@@ -19,11 +19,17 @@ VARIANTS = 12
 SAME_PLACE = 0.6
 #: Similarity to an example from which a result stays as it is: it is where the example says, not somewhere near.
 SURE = 0.9
+#: Examples from which their agreement is no accident, and how far an edge is moved for it, in widths of the Gaussians.
+LEAST_AGREED, SNAPPED = 3, 1.0
+#: How much a distance counts against a habit, as a scatter.
+FARTHER = 0.1
 #: How much the result itself counts among the likely candidates around it, as a certainty.
 OWN_WEIGHT = 0.5
 
 
-def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDArray[np.intp]) -> tuple[Array, Array]:
+def refined(
+    lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDArray[np.intp], drawn: Array, allowed: float
+) -> tuple[Array, Array]:
     """Chosen candidates, each moved to what is most similar to the examples nearby, or amid what is likely.
 
     The quick look tells places apart, not whether an edge follows the window's edge or its centre: of the proposals
@@ -36,6 +42,10 @@ def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDAr
     arrangement : Arrangement
     seen : Survey
     chosen : ndarray of shape (c,), int
+    drawn : ndarray of shape (k, 4)
+        Examples drawn in the arrangement.
+    allowed : float
+        Share of the smaller of two boxes that they may share: what would share more stays where it was.
 
     Returns
     -------
@@ -44,8 +54,10 @@ def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDAr
         To every example, of what is most similar in the place.
     """
     boxes, similar = seen.boxes[chosen].copy(), seen.similarities[chosen].copy()
-    if not len(chosen) or not len(seen.predicted) or (seen.chosen is not None and not lesson.habits.exact):
+    if not len(chosen) or not len(seen.predicted):
         return boxes, similar
+    if seen.chosen is not None and not lesson.habits.exact:
+        return snapped(lesson, arrangement, boxes), similar
     alike = union_overlap(boxes, seen.predicted)
     near = np.where(alike >= SAME, seen.repeats[None] + alike / 2, -1.0)
     best = np.argsort(-near, axis=1, kind="stable")[:, :VARIANTS]
@@ -79,7 +91,82 @@ def refined(lesson: Lesson, arrangement: Arrangement, seen: Survey, chosen: NDAr
     if len(unsure) and not lesson.habits.exact:
         unsure = unsure[~copied(lesson, arrangement, boxes[unsure])]
         boxes[unsure] = middle(boxes[unsure], seen.boxes, seen.certainty)
+    if not lesson.habits.exact:
+        boxes = snapped(lesson, arrangement, boxes)
+    else:
+        # What was found by an exact rule is where the rule says: no other way of keeping relations is better.
+        kept = lesson.habits.constructed(signature(arrangement, seen.boxes[chosen], 1, lesson.labels, outlines=False))
+        stays = kept >= KEPT
+        boxes[stays], similar[stays] = seen.boxes[chosen[stays]], seen.similarities[chosen[stays]]
+    back = colliding(seen.boxes[chosen], boxes, drawn, allowed)
+    boxes[back], similar[back] = seen.boxes[chosen[back]], seen.similarities[chosen[back]]
     return boxes, similar
+
+
+def snapped(lesson: Lesson, arrangement: Arrangement, boxes: Array) -> Array:
+    """Boxes whose edges are moved to where the examples' habits have them, if that is near.
+
+    Where three and more examples agree closely in a coordinate of an edge, that is what the edge keeps to: a metre from
+    the side, drawn by eye. Of several such coordinates the one counts in which they scatter least, and of
+    those alike the nearest.
+
+    Parameters
+    ----------
+    lesson : Lesson
+    arrangement : Arrangement
+    boxes : ndarray of shape (n, 4)
+
+    Returns
+    -------
+    ndarray of shape (n, 4)
+    """
+    if len(lesson.positive) < LEAST_AGREED or not len(boxes):
+        return boxes
+    seen = signature(arrangement, boxes, 1, lesson.labels, outlines=False)
+    widths = lesson.widths[:2, None, None]
+    least, move = np.full((len(boxes), 2, 2), np.inf), np.zeros((len(boxes), 2, 2))
+    for key, habit in lesson.habits.of.items():
+        if key not in seen.boxes:
+            continue
+        edges = seen.boxes[key][:, 0][:, :, [0, 2]]
+        off = edges - habit.middle
+        off[..., 3] *= edges[..., 0] - edges[..., 1]
+        near = (habit.scatter <= HABIT_FLOOR * widths) & (np.abs(off) <= SNAPPED * widths)
+        cost = np.where(near, habit.scatter + FARTHER * np.abs(off), np.inf)
+        best = np.argmin(cost, axis=3)[..., None]
+        cost, off = (np.take_along_axis(v, best, axis=3)[..., 0] for v in (cost, off))
+        move = np.where(cost < least, off, move)
+        least = np.minimum(cost, least)
+    found = boxes - move.transpose(0, 2, 1).reshape(-1, 4)
+    kept = (found[:, 2:] > found[:, :2]).all(axis=1)
+    return np.where(kept[:, None], found, boxes)
+
+
+def colliding(before: Array, after: Array, drawn: Array, allowed: float) -> NDArray[np.bool_]:
+    """Which boxes have to go back to where they were, so that none that was moved overlaps with another one.
+
+    Parameters
+    ----------
+    before, after : ndarray of shape (c, 4)
+    drawn : ndarray of shape (k, 4)
+        What does not move.
+    allowed : float
+        Share of the smaller of two that they may share.
+
+    Returns
+    -------
+    ndarray of shape (c,), bool
+    """
+    moved = (before != after).any(axis=1)
+    back = np.zeros(len(after), dtype=bool)
+    while True:
+        now = np.where(back[:, None], before, after)
+        shared = overlap(now, np.concatenate([now, drawn])) > allowed
+        np.fill_diagonal(shared, False)
+        more = shared.any(axis=1) & moved & ~back
+        if not more.any():
+            return back
+        back |= more
 
 
 def copied(lesson: Lesson, arrangement: Arrangement, boxes: Array) -> NDArray[np.bool_]:

@@ -10,8 +10,9 @@ from .boxes import interval_overlap, overlap, union_overlap
 from .calibration import ABROAD, ALONE, AT_HOME, Judgement
 from .candidates import crossings, predictions, proposals
 from .company import Company, anchors_of
-from .construction import EQUALLY_ALIKE, construction, is_constructed
+from .construction import EQUALLY_ALIKE, constructed_boxes, construction, is_constructed
 from .evidence import like_parents, single_evidence
+from .lattice import regular
 from .lesson import Lesson, Match
 from .one_each import copies, copy_evidence
 from .regularity import beats, rhythm, rows_of
@@ -38,8 +39,9 @@ MOST_MET = 4
 ALIKE, SURELY_ALIKE, UNLIKE = 0.85, 0.9, 0.7
 #: Overlap with a candidate from which others are around it: of its place, with other edges.
 AROUND = 0.3
-#: By what the odds are multiplied of what keeps to what all examples keep to exactly, and of what does not.
-EXACT, INEXACT = 3.0, 0.1
+#: By what the odds are multiplied of what keeps to what all examples keep to exactly, for every example that confirms
+#: another one, as long as these are few; and of what does not.
+EXACT, INEXACT, MOST_FAVOURS = 3.0, 0.1, 4
 #: Examples from which what they keep to exactly is no accident: elements then predict all that is meant, rows nothing.
 FEW_EXACT = 3
 #: Certainty from which a candidate's extents are continued across the arrangement.
@@ -170,7 +172,7 @@ def _evidence(
 
 
 def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Array) -> Survey:
-    """Rated candidates of an arrangement: what follows from a rule that all examples keep to, or else a search.
+    """Rated candidates of an arrangement: what follows from a rule, or from rows of examples alone, or else a search.
 
     Parameters
     ----------
@@ -191,6 +193,11 @@ def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
             nothing = np.zeros((0, 4)), np.zeros(0, dtype=np.intp)
             similar = made.similarities
             return Survey(made.boxes, similar, similar, made.certainty, *nothing, 0 if len(made.boxes) else None)
+    even = regular(lesson, arrangement, present)
+    if even is not None:
+        boxes, certainty = (part[_unlike_shown(even[0], shown)] for part in even)
+        similar, contrast, *_ = look(lesson, arrangement, boxes, present)
+        return Survey(boxes, similar, contrast, certainty, np.zeros((0, 4)), np.zeros(0, dtype=np.intp))
     return search(lesson, arrangement, present, shown)[0]
 
 
@@ -215,6 +222,11 @@ def search(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
     predicted, repeats = predictions(lesson, arrangement)
     proposed, quick = glance(lesson, arrangement, present, predicted, repeats)
     worth = judge.glance.certainty(quick)
+    if judge.choose is None and lesson.habits.exact and len(lesson.positive) >= FEW_EXACT:
+        # What follows from an exact rule is looked at first: what nearly repeats it is not what was drawn.
+        made = constructed_boxes(lesson, arrangement)[0]
+        proposed = np.concatenate([made, proposed])
+        worth = np.concatenate([np.ones(len(made)), worth])
     new = _unlike_shown(proposed, shown)
     proposed, worth = proposed[new], worth[new]
     if judge.choose is None:
@@ -243,8 +255,13 @@ def search(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
     every = np.hstack([single, among, settled])
     certainty = np.maximum(judge.settle.certainty(every), likeness(similar[:, lesson.positive]))
     # What keeps exactly to what examples keep to exactly follows the rule, whatever the weights say; the rest does not.
-    exactness = np.where(np.isnan(exact), 0.0, (1 - exact) * np.log(INEXACT) + exact * np.log(EXACT))
+    favour = EXACT ** min(len(lesson.positive) - 1, MOST_FAVOURS)
+    exactness = np.where(np.isnan(exact), 0.0, (1 - exact) * np.log(INEXACT) + exact * np.log(favour))
     certainty = more_certain(certainty, exactness)
+    follows = exact >= 1 - EQUALLY_ALIKE
+    if follows.any():
+        repeats_it = union_overlap(boxes, boxes[follows]).max(axis=1) >= SAME
+        certainty[repeats_it & ~follows] = 0.0
     chosen = None
     if judge.choose is not None and len(boxes):
         chosen, middle = one_of(lesson, boxes, judge.choose.value(every) + exactness)
