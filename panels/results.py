@@ -53,7 +53,7 @@ class GEOANALOGY_PT_results(SidebarPanel, bpy.types.Panel):
         faces = unfamiliar_of(node)
         head = box.row()
         if not faces:
-            head.operator("geoanalogy.list_unfamiliar", icon="QUESTION")
+            head.operator("geoanalogy.list_unfamiliar")
             if names.UNFAMILIAR in node:
                 hint(box, "No face is unlike the examples", "CHECKMARK")
             return

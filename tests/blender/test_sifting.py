@@ -57,7 +57,7 @@ def test_the_threshold_sifts_in_a_reopened_file(tmp_path):
     assert placed() == few
 
 
-def test_rejected_results_stay_away_and_come_back_when_forgotten():
+def test_rejected_results_stay_away_and_come_back_when_forgotten(capfd):
     rooms()
     bed()
     propagate()
@@ -65,6 +65,7 @@ def test_rejected_results_stay_away_and_come_back_when_forgotten():
     gone = activate(results()[0])
     key = gone["ga_key"]
     assert bpy.ops.geoanalogy.reject(EXEC, True) == {"FINISHED"}
+    assert "1 rejected, 1 left" in "".join(capfd.readouterr())
     assert key not in [i["ga_key"] for i in results()]
     assert bpy.ops.geoanalogy.replay(EXEC, True) == {"FINISHED"}
     assert key not in [i["ga_key"] for i in results()]
