@@ -48,7 +48,7 @@ class RegionOptions:
     """
 
     threshold: float = 0.45
-    contrast: float = 0.7
+    contrast: float = 0.5
     query_kind: str = "auto"
     query_points: int = 50
     reach: float = 0.1
