@@ -97,12 +97,14 @@ def compute(job: str, scene: str, progress: Progress | None = None) -> Product:
         Where the job is damaged.
     Cancelled
         When `progress` returned False.
+    ModuleNotFoundError
+        Where a library is missing: no parcel could be built.
     """
     worker = _worker(job)
     ground, units = read_scene_text(scene)
     try:
         return worker.build(ground, units, progress)
-    except Cancelled:
+    except (Cancelled, ModuleNotFoundError):
         raise
     except Exception as error:
         if len(units) == 1:
@@ -111,7 +113,7 @@ def compute(job: str, scene: str, progress: Progress | None = None) -> Product:
     for unit in units:
         try:
             products.append(worker.build(ground, [unit], progress))
-        except Cancelled:
+        except (Cancelled, ModuleNotFoundError):
             raise
         except Exception as error:
             products.append(worker.failed(unit, error))

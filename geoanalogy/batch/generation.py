@@ -4,6 +4,7 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -151,6 +152,8 @@ def generate(
         wrong with a cluster.
     Stopped
         When `progress` returned False.
+    ModuleNotFoundError
+        Where a library is missing that is built with.
     OSError
         Where the folder cannot be written.
     """
@@ -213,7 +216,9 @@ class _Runner:
                     if there is not None:
                         self._take(*there)
                     self._report()
-        elif self.choices.jobs > 1:
+            return
+        import_module("manifold3d")  # before the long work, in case it is missing
+        if self.choices.jobs > 1:
             with closing(build_here(self.text, self.waiting, self.job.store, self.choices.jobs)) as answers:
                 for answer in answers:
                     if answer is not None:

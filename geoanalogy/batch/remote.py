@@ -38,10 +38,10 @@ def build(job: str, scene: str, digest: str) -> tuple[str, bytes]:
     try:
         computing = importlib.import_module("geoanalogy.batch.computing")
         release = importlib.import_module("geoanalogy.batch.release")
+        if release.digest() != digest:
+            reason = f"the worker on {socket.gethostname()} has another GeoAnalogy ({release.version()})"
+            return f"{reason}; install the same version everywhere", b""
+        return "", computing.compute(job, scene).to_bytes()
     except ModuleNotFoundError as error:
         reason = f"the worker on {socket.gethostname()} lacks the module {error.name}: install geoanalogy there"
         return f"{reason} (pip install .)", b""
-    if release.digest() != digest:
-        reason = f"the worker on {socket.gethostname()} has another GeoAnalogy ({release.version()})"
-        return f"{reason}; install the same version everywhere", b""
-    return "", computing.compute(job, scene).to_bytes()

@@ -5,6 +5,7 @@ import gc
 import json
 import os
 import signal
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -164,6 +165,25 @@ def test_a_parcel_that_fails_is_named_and_the_others_are_built(tmp_path, monkeyp
     problems = [p for key in job.keys for p in job.facts[key]["problems"]]
     assert problems == ["parcel 'p05' stays empty: internal error (ZeroDivisionError: by chance)"]
     assert {name.split("/")[1].split("@")[0] for name in contents(job)} == {f"p{k:02d}" for k in range(12)} - {"p05"}
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_without_a_library_nothing_is_kept(tmp_path, monkeypatch, jobs):
+    monkeypatch.setitem(sys.modules, "manifold3d", None)
+    with pytest.raises(ModuleNotFoundError, match="manifold3d"):
+        built(plots(), tmp_path, Choices(jobs=jobs, per_tile=6))
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_library_that_is_missing_is_no_fault_of_a_parcel(monkeypatch):
+    def failing(self, ground, units, progress):
+        raise ModuleNotFoundError("No module named 'manifold3d'", name="manifold3d")
+
+    monkeypatch.setattr(computing._Worker, "build", failing)
+    scene = plots(2)
+    units = units_of(scene, wanted_labels(tree()))
+    with pytest.raises(ModuleNotFoundError, match="manifold3d"):
+        computing.compute(computing.job_text(tree(), 7, "full"), scene_text(scene, units))
 
 
 def test_a_process_that_is_killed_is_replaced(tmp_path):
