@@ -16,7 +16,7 @@ from .marks import laid, of_marks
 from .options import RegionOptions
 from .query import Query
 from .refinement import Refined
-from .retraced import retraced
+from .retraced import retraced, wanting
 from .standing import least_shown
 from .transformation import Nodes, TransformationFunction
 
@@ -221,7 +221,7 @@ def matching(
                 np.array([np.concatenate([f.position, f.factor]) for f in functions]),
                 np.array([f.mirrored for f in functions]),
             )
-            weak = np.flatnonzero(corners_met(chained, most) < 1.0)
+            weak = wanting(fitter, fitted, corners_met(chained, most))
             again = retraced(contours, region, fitter, [fitted[i] for i in weak], options.mirrored)
             chained[weak] = np.maximum(chained[weak], again)
             fits = [

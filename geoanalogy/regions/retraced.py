@@ -8,11 +8,11 @@ the query, the corners of that part alone can be compared with those of the stre
 
 import numpy as np
 
-from ..geometry.contours import Contours, Floats
+from ..geometry.contours import Contours, Floats, Indices
 from .chains import LEADING, LEAST_LENGTH, MOST_SOURCES, chain
 from .courses import lengths
 from .evidence import agreement, support
-from .fitting import Fit, Fitter
+from .fitting import PLACE, Fit, Fitter
 from .query import Query, Run
 
 #: Mean evidence at the samples from which on a fit is worth being retraced.
@@ -21,6 +21,29 @@ LEAST_SUPPORT = 0.75
 LEAST_COUNTERPARTS = 4
 #: Points of a closed line, in typical gaps between counterparts, without any from which on only a part is meant.
 LEFT_OUT = 4.0
+
+
+def wanting(fitter: Fitter, fits: list[Fit], met: Floats) -> Indices:
+    """The fits that want evidence of chains, at places where none has enough of it.
+
+    Beside one that has enough, others would be given more than it has, since it is not retraced.
+
+    Parameters
+    ----------
+    fitter : Fitter
+    fits : list of Fit
+    met : (n,) float
+        Evidence of chains as a share of what is enough.
+
+    Returns
+    -------
+    (k,) int
+    """
+    middle = [f.function.position.mean() for f in fits]
+    centre = np.array([np.conj(z) if f.function.mirrored else z for z, f in zip(middle, fits, strict=True)])
+    extent = fitter.size * np.array([np.abs(f.function.factor).mean() for f in fits])
+    near = np.abs(centre[:, None] - centre) < PLACE * np.minimum(extent[:, None], extent)
+    return np.flatnonzero(~(near & (met >= 1.0)).any(1))
 
 
 def retraced(contours: Contours, query: Query, fitter: Fitter, fits: list[Fit], mirrored: bool) -> Floats:

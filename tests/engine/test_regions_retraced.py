@@ -9,7 +9,7 @@ from geoanalogy.regions.chains import MOST_TARGETS, chain
 from geoanalogy.regions.evidence import COVERED, trusted
 from geoanalogy.regions.fitting import MEASURING, Fit, Fitter
 from geoanalogy.regions.query import Query
-from geoanalogy.regions.retraced import counterpart, retraced
+from geoanalogy.regions.retraced import counterpart, retraced, wanting
 from geoanalogy.regions.transformation import Nodes, TransformationFunction
 
 SHIFT = (3.0, 0.0)
@@ -82,3 +82,10 @@ def test_a_small_shape_among_many_long_lines_is_found():
 
 def test_what_few_lines_support_is_a_guess():
     assert trusted([0.0, COVERED / 2.0, COVERED, 1.0]) == pytest.approx([0.0, 0.25, 1.0, 1.0])
+
+
+def test_only_places_without_enough_evidence_want_more():
+    _, _, fitter, fit = fitted(copied())
+    elsewhere = fitted(copied(), shift=(3.0, 5.0))[-1]
+    assert wanting(fitter, [fit, fit, elsewhere], np.array([1.0, 0.4, 0.4])).tolist() == [2]
+    assert wanting(fitter, [fit, fit, elsewhere], np.array([0.9, 0.4, 1.0])).tolist() == [0, 1]
