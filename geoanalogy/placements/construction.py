@@ -27,6 +27,8 @@ SURE = 0.95
 FAMILIAR, FOREIGN = 0.5, 0.9
 #: Difference in similarity, a few times what float32 leaves of it, below which two boxes are alike.
 EQUALLY_ALIKE = 1e-4
+#: Difference in size, as a share of what counts as exact, below which elements are equal but for rounding.
+SAME_SIZE = 1e-5
 #: Digits to which logarithms of deformations differ by more than rounding.
 ROUNDED = 6
 
@@ -92,12 +94,21 @@ def constructed_boxes(lesson: Lesson, arrangement: Arrangement) -> tuple[Array, 
     for g, (key, exact) in enumerate(lesson.habits.exact.items()):
         middle = lesson.habits.of[key].middle
         elements = arrangement.boxes.get(key.removeprefix(BOX), np.zeros((0, 4)))
-        for e, element in enumerate(arrangement.parent_box[None] if key == PARENT_BOX else elements):
-            low, high = element[:2, None], element[2:, None]
-            from_centre, shares = (low + high) / 2 + middle[..., 2], low + (high - low) * middle[..., 3]
-            places = np.stack([low + middle[..., 0], high + middle[..., 1], from_centre, shares], axis=-1)
+        elements = arrangement.parent_box[None] if key == PARENT_BOX else elements
+        # What follows from elements of one size differs by where they are.
+        sizes = elements[:, 2:] - elements[:, :2]
+        _, first, kind = np.unique(
+            np.round(sizes / (SAME_SIZE * tolerance)), axis=0, return_index=True, return_inverse=True
+        )
+        of_kind = []
+        for size in sizes[first][..., None]:
+            places = np.stack(
+                [middle[..., 0], size + middle[..., 1], size / 2 + middle[..., 2], size * middle[..., 3]], -1
+            )
             edges = [_distinct(places[a, s][exact[a, s]], tolerance[a]) for s in (0, 1) for a in (0, 1)]
-            boxes.append(np.array(list(itertools.product(*edges))))
+            of_kind.append(np.array(list(itertools.product(*edges))))
+        for e, (element, k) in enumerate(zip(elements, kind.ravel(), strict=True)):
+            boxes.append(of_kind[k] + np.tile(element[:2], 2))
             made_from.append(np.full((len(boxes[-1]), 2), (g, e)))
     every = np.concatenate(boxes)
     some = plausible(every, lesson.sizes[lesson.positive])

@@ -88,25 +88,25 @@ def is_silent(lesson: Lesson, arrangement: Arrangement, present: Array, axis: in
     -------
     bool
     """
-    repeated = {
-        label: elements
-        for label, elements in arrangement.boxes.items()
-        if len(rows_of(elements[:, [axis, axis + 2]])) > 1
-    }
     here = [i for i in lesson.positive if lesson.taught[i].fingerprint == arrangement.fingerprint]
     drawn = np.array([lesson.taught[i].rectangle.box(arrangement.frame)[0] for i in here])
     others = interval_overlap(drawn, drawn, axis) < ALIGNED
-    for label in repeated:
+    if not others.any():  # a single row agrees with all that it runs along
+        others = ~np.eye(len(here), dtype=bool)
+    for label, elements in arrangement.boxes.items():
         match = lesson.among_examples.get(BOX + label)
         if match is None:
             continue
-        agreement = (match.along_x, match.along_y)[axis][np.ix_(here, here)]
-        if not others.any():  # a single row agrees with all that it runs along
-            others = ~np.eye(len(here), dtype=bool)
-        if np.where(others, agreement, 0.0).max(axis=1).mean() >= SPEAKS:
+        agreement = np.where(others, (match.along_x, match.along_y)[axis][np.ix_(here, here)], 0.0)
+        if agreement.max(axis=1).mean() >= SPEAKS and _is_repeated(elements, axis):
             return False
-    labels = {label: elements for label, elements in repeated.items() if label in arrangement.drawn}
+    labels = {label: elements for label, elements in arrangement.drawn.items() if _is_repeated(elements, axis)}
     return bool(alignment(present, present, labels, axis)[0].max() < SPEAKS)
+
+
+def _is_repeated(elements: Array, axis: int) -> bool:
+    """Whether elements stand in more than one row or column."""
+    return len(rows_of(elements[:, [axis, axis + 2]])) > 1
 
 
 def regular(lesson: Lesson, arrangement: Arrangement, present: Array) -> tuple[Array, Array] | None:
@@ -131,10 +131,8 @@ def regular(lesson: Lesson, arrangement: Arrangement, present: Array) -> tuple[A
     along = [present[:, [axis, axis + 2]] for axis in (0, 1)]
     if max(len(rows_of(extents)) for extents in along) == len(present) == min(len(rows_of(e)) for e in along):
         return None  # each in a row and a column of its own
-    if not all(is_silent(lesson, arrangement, present, axis) for axis in (0, 1)):
-        return None
     x, y = (lattice(along[axis], box[axis], box[axis + 2]) for axis in (0, 1))
-    if x is None or y is None:
+    if x is None or y is None or not all(is_silent(lesson, arrangement, present, axis) for axis in (0, 1)):
         return None
     boxes = crossings(x, y)
     covered, _, touched, outside = excess(lesson, arrangement, boxes)
