@@ -120,8 +120,9 @@ def _divided(z: Complex, closed: bool, longest: float) -> Complex:
     """A line whose chords are no longer than a share of its length; of closed ones without the repeated first point."""
     step = np.abs(np.diff(z))
     parts = np.maximum(1, np.round(step / (longest * step.sum()))).astype(int)
-    within = np.concatenate([np.arange(n) / n for n in parts])
-    z = np.append(np.repeat(z[:-1], parts) + np.repeat(np.diff(z), parts) * within, z[-1])
+    if (parts > 1).any():
+        within = np.concatenate([np.arange(n) / n for n in parts])
+        z = np.append(np.repeat(z[:-1], parts) + np.repeat(np.diff(z), parts) * within, z[-1])
     return z[:-1] if closed else z
 
 

@@ -188,15 +188,11 @@ class Walk:
     def _cut(self) -> tuple[Indices, tuple[Indices, ...]]:
         """Where chords end at the end of an open line of the drawing, and where those before begin at its beginning."""
         cut = [block for block in self.blocks if not block.closed]
-        last = [block.columns.stop - 1 for block in cut]
-        first = [
-            (k, c, block.start + own + other)
-            for block in cut
-            for k, (_, own) in enumerate(CHORDS)
-            for c, (_, other) in enumerate(CHORDS)
-            if own + other < len(block.corners)
-        ]
-        return np.array(last, np.intp), tuple(np.reshape(first, (-1, 3)).astype(np.intp).T)
+        start, n = np.array([(block.start, len(block.corners)) for block in cut], np.intp).reshape(-1, 2).T
+        k, c = (x.ravel() for x in np.indices((len(CHORDS), len(CHORDS))))
+        along = np.array([own + other for _, own in CHORDS for _, other in CHORDS])
+        some, pair = np.nonzero(along < n[:, None])
+        return start + n - 1, (k[pair], c[pair], start[some] + along[pair])
 
     def ways(self, least: float) -> Iterator[tuple[float, Block, Indices]]:
         """The best chains of every block, each with another beginning.

@@ -165,12 +165,7 @@ def clusters(nodes: Nodes, refined: Refined, alike: csr_array, least: int) -> St
         first, second = np.split(pair.ravel(), 2)
         name, count = name[left], count[left]
         yield 1.0 - len(name) / n, "linking correspondences"
-    found: list[Cluster] = []
-    for members in np.split(np.argsort(owner, kind="stable"), np.cumsum(np.bincount(owner, minlength=n))[:-1]):
-        if len(members) >= least and len(np.unique(refined.node[members])) >= least:
-            found.append(_cluster(members, nodes, refined, alike))
-    found.sort(key=lambda c: -c.tps)
-    return found
+    return sorted(_clusters(owner, least, nodes, refined, alike), key=lambda c: -c.tps)
 
 
 def _linkage(
@@ -213,27 +208,44 @@ def _joined(
     return key // n, key % n, np.bincount(back, total[apart], len(key)).astype(np.float32)
 
 
-def _cluster(members: NDArray[np.intp], nodes: Nodes, refined: Refined, alike: csr_array) -> Cluster:
-    """A set with the one correspondence of each query point that agrees best with the others, and its similarity.
+def _clusters(owner: Indices, least: int, nodes: Nodes, refined: Refined, alike: csr_array) -> list[Cluster]:
+    """Sets with the one correspondence of each query point that agrees best with the others, and their similarities.
+
+    `owner` has the set of each correspondence, negative for none; sets over fewer than `least` query points are left
+    out.
 
     Eq. 3.11 takes a harmonic mean of weights that reach 0; similarities are raised to LEAST_SIMILARITY, which stands
     for "nothing in common", and the mean runs over pairs of neighbouring query points. |T| is taken as the share of
     all query points, so that the similarity does not depend on their number.
     """
-    local = alike[members][:, members]
-    agreement = np.asarray(local.sum(1)).ravel() * refined.magnitude[members]
-    order = np.lexsort((-agreement, refined.node[members]))
-    _, first = np.unique(refined.node[members][order], return_index=True)
-    chosen = members[order[first]]
-    at = np.full(len(nodes.at), -1)
-    at[refined.node[chosen]] = chosen
-    i, j = at[nodes.first], at[nodes.second]
-    both = (i >= 0) & (j >= 0)
-    if not both.any():
-        return Cluster(chosen, 0.0)
-    value = np.maximum(np.asarray(alike[i[both], j[both]]).ravel(), LEAST_SIMILARITY)
-    weight = nodes.weight[both]
-    return Cluster(chosen, float(weight.sum() / (weight / value).sum() * len(chosen) / len(nodes.at)))
+    n, m = len(refined), len(nodes.at)
+    links = coo_array(alike)
+    within = (owner[links.row] == owner[links.col]) & (owner[links.row] >= 0)
+    row, column, value = links.row[within], links.col[within], links.data[within]
+    agreement = np.bincount(row, value, n) * refined.magnitude
+    order = np.lexsort((-agreement, refined.node, owner))
+    order = order[owner[order] >= 0]
+    place = owner[order] * m + refined.node[order]
+    chosen = order[np.diff(place, prepend=-1) != 0]
+    chosen = chosen[np.bincount(owner[chosen], minlength=1)[owner[chosen]] >= least]
+    names, name, sizes = np.unique(owner[chosen], return_inverse=True, return_counts=True)
+    has = np.zeros((len(names), m), bool)
+    has[name, refined.node[chosen]] = True
+    label = np.full(n, -1)
+    label[chosen] = name
+    link = np.full((m, m), -1)
+    link[nodes.first, nodes.second] = np.arange(len(nodes.first))
+    like = np.full((len(names), len(nodes.first)), LEAST_SIMILARITY)
+    both = (label[row] >= 0) & (label[column] >= 0)
+    row, column, value = row[both], column[both], value[both]
+    like[label[row], link[refined.node[row], refined.node[column]]] = np.maximum(value, LEAST_SIMILARITY)
+    weight = nodes.weight * (has[:, nodes.first] & has[:, nodes.second])
+    total = weight.sum(1)
+    mean = np.divide(total, (weight / like).sum(1), out=np.zeros(len(names)), where=total > 0.0)
+    return [
+        Cluster(members, float(mean[k] * len(members) / m))
+        for k, members in enumerate(np.split(chosen, np.cumsum(sizes))[:-1])
+    ]
 
 
 def branched(cluster: Cluster, nodes: Nodes, refined: Refined, alike: csr_array) -> Cluster:
@@ -266,4 +278,6 @@ def branched(cluster: Cluster, nodes: Nodes, refined: Refined, alike: csr_array)
         members.append(best)
         free[refined.node[best]] = False
         agreement += alike[:, [best]].toarray().ravel()
-    return _cluster(np.sort(np.array(members)), nodes, refined, alike)
+    owner = np.full(len(refined), -1)
+    owner[members] = 0
+    return _clusters(owner, 1, nodes, refined, alike)[0]
