@@ -228,7 +228,8 @@ def read_grounds(
             ]
         except InputError as error:
             fail(error)
-    return [_ground(layer, scene, depsgraph, ids) for layer in layers]
+    validated = {i.name: str(i[names.VALIDATION]) for i in scene.objects if i.name in ids and names.VALIDATION in i}
+    return [_ground(layer, scene, depsgraph, ids, validated) for layer in layers]
 
 
 def only_in(ground: Ground, chosen: frozenset[str]) -> Ground:
@@ -271,21 +272,26 @@ def _lies_on(flat: _Drawn, layer: _Layer) -> bool:
     return bool((shared > OVER * (high - low)).all(axis=1).any())
 
 
-def _ground(layer: _Layer, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, ids: dict[str, str]) -> Ground:
+def _ground(
+    layer: _Layer,
+    scene: bpy.types.Scene,
+    depsgraph: bpy.types.Depsgraph,
+    ids: dict[str, str],
+    validated: dict[str, str],
+) -> Ground:
     polygons = [p for id in sorted(layer.polygons) for p in layer.polygons[id]]
     alternatives = {}
-    for name, id in ids.items():
-        wanted = scene.objects[name].get(names.VALIDATION) if id in layer.polygons else None
-        if wanted is None:
+    for name, wanted in validated.items():
+        if ids[name] not in layer.polygons:
             continue
-        item = scene.objects.get(str(wanted))
+        item = scene.objects.get(wanted)
         if item is None:
             raise InputError(f"object {name!r} is to be validated as {wanted!r}, which is not there; correct the name")
         rings = rings_of(item, depsgraph)
         if len(rings) != 1:
             raise InputError(f"object {item.name!r} has {len(rings)} closed lines; one is to stand for {name!r}")
         ring = layer.plane.to_plane(rings[0].points)[:, :2]
-        alternatives[id] = [(float(x), float(y)) for x, y in ring]
+        alternatives[ids[name]] = [(float(x), float(y)) for x, y in ring]
     return Ground(layer.plane, Scene(polygons, memory=memory), alternatives)
 
 

@@ -71,7 +71,9 @@ def keep_ids(scene: bpy.types.Scene, grounds: Iterable[Scene]) -> None:
     """
     polygons = (str(polygon.id) for ground in grounds for polygon in ground.polygons)
     known = {part for id in polygons for part in (id, id.rpartition("/")[0])}
-    for name, id in ids_of(scene).items():
-        item = scene.objects[name]
-        if id in known and item.is_editable and item.get(names.ID) != id:
+    ids = ids_of(scene)
+    # Not by their names: each look-up would go through all objects.
+    for item in scene.objects:
+        id = ids.get(item.name)
+        if id in known and names.KEY not in item and item.is_editable and item.get(names.ID) != id:
             item[names.ID] = id
