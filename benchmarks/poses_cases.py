@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import random
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -157,7 +158,9 @@ def offices(folder: Path, sources: int) -> Iterator[Case]:
     rooms = rooms_of(folder / "AC11-Institute-Var-2-IFC.json")
     furnished = single_offices(rooms)
     piece = {(r["id"], f["label"]): f for r in furnished for f in r["furniture"]}
-    for source in furnished[:: max(1, len(furnished) // sources)][:sources]:
+    mixed = list(furnished)
+    random.Random("offices").shuffle(mixed)
+    for source in mixed[:sources]:
         others = [r for r in furnished if r is not source]
         for label in ("desk", "chair"):
             example = piece[source["id"], label]

@@ -42,12 +42,12 @@ class Candidates:
     angle: Array
     strength: Array
 
-    def of(self, chosen: NDArray[np.bool_]) -> "Candidates":
+    def of(self, chosen: NDArray[np.bool_] | Indices) -> "Candidates":
         """Some of the places.
 
         Parameters
         ----------
-        chosen : ndarray of shape (m,), bool
+        chosen : ndarray of bool or int
 
         Returns
         -------

@@ -19,6 +19,7 @@ from .candidates import Candidates, find_candidates
 from .explanation import explain
 from .fields import Fields
 from .footprint_candidates import SLACK, directions_read, find_footprint_candidates
+from .giving_way import FREE, give_way
 from .importance import Importance
 from .kernels import wrap
 from .matching import Matching, Sense, senses
@@ -27,10 +28,14 @@ from .pose import Pose, footprint_ring
 from .query import Query
 from .refinement import refine
 from .results import PoseResults, PropagatedPose, RelationShare
+from .rivals import Refined
 from .validation import JUTTING_SHARE, Validation
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
+
+#: Importance, position, angle, and the importance that they are of.
+Found = tuple[float, Array, float, Importance]
 
 #: Differences in importance below this are none: about what the refinement leaves.
 EQUAL = 1e-4
@@ -125,7 +130,7 @@ class PoseModel:
             yield i / len(targets), f"placing in {polygon.label or polygon.id}"
             tried += self._candidates_in(arrangement_of(scene, polygon), spacing)
             if (i + 1) % TOGETHER == 0 or i + 1 == len(targets):
-                found += self._answers(tried)
+                found += self._answers(tried, spacing)
                 tried.clear()
                 scene.memory.settle()
         order = self._ranked(
@@ -198,20 +203,24 @@ class PoseModel:
     def _candidates_in(self, target: Arrangement, spacing: float) -> Iterator[tuple[Importance, Candidates]]:
         """Where to look in an arrangement, for every sense and scale."""
         for importance in self.importances(target):
-            slack = SLACK * importance.width
-            share = 1.0 if self._validation.may_jut_out else 2 * JUTTING_SHARE
-            margin = share * float(np.hypot(*importance.samples.T).max())
-            fields = self._fields(target, spacing, margin)
-            # Together with what the validation asks for: all relations share what the grid's points see.
-            relations = (RELATIONS["boundary distance"], *importance.relations)
-            fields.evaluate(relations, directions_read(importance) if self.query.rigid else None)
-            blocked = self._validation.blocked(target, fields, slack)
-            # The example would outshine the other places of its room.
-            taken = self._is_example(target, fields.grid.points, importance.mirrored)
-            find = find_footprint_candidates if self.query.rigid else find_candidates
-            candidates = find(importance, fields, blocked, taken)
+            candidates = self._candidates_of(importance, spacing, SLACK * importance.width)
             if len(candidates.angle):
                 yield importance, candidates
+
+    def _candidates_of(self, importance: Importance, spacing: float, slack: float) -> Candidates:
+        """Where to look, up to `slack` deep inside what the object may not be in."""
+        target = importance.target
+        share = 1.0 if self._validation.may_jut_out else 2 * JUTTING_SHARE
+        margin = share * float(np.hypot(*importance.samples.T).max())
+        fields = self._fields(target, spacing, margin)
+        # Together with what the validation asks for: all relations share what the grid's points see.
+        relations = (RELATIONS["boundary distance"], *importance.relations)
+        fields.evaluate(relations, directions_read(importance) if self.query.rigid else None)
+        blocked = self._validation.blocked(target, fields, slack)
+        # The example would outshine the other places of its room.
+        taken = self._is_example(target, fields.grid.points, importance.mirrored)
+        find = find_footprint_candidates if self.query.rigid else find_candidates
+        return find(importance, fields, blocked, taken)
 
     def _fields(self, target: Arrangement, spacing: float, margin: float) -> Fields:
         """The fields of an arrangement; coarser where a large object may jut out of a small parent."""
@@ -220,22 +229,19 @@ class PoseModel:
         coarser = max(0.0, float(np.ceil(np.log2(least / spacing))))
         return target.fields(spacing * 2**coarser, margin + spacing * 2**coarser)
 
-    def _answers(self, tried: Sequence[tuple[Importance, Candidates]]) -> list[PropagatedPose]:
+    def _answers(self, tried: Sequence[tuple[Importance, Candidates]], spacing: float) -> list[PropagatedPose]:
         """What the candidates of some arrangements lead to."""
         importances = [importance for importance, _ in tried]
-        factor = np.array([1.0 if i.scale == 1.0 else SCALED_FACTOR for i in importances])
-        refined = refine(importances, [candidates for _, candidates in tried], factor.tolist(), self._stands)
-        found: dict[Arrangement, list[tuple[float, Array, float, Importance]]] = {}
-        for k, mine in refined.by_importance():
-            importance, poses = importances[k], refined.of(mine)
-            target, turned = importance.target, importance.mirrored
-            good = poses.value * factor[k] >= self.options.threshold
-            good &= ~self._is_example(target, poses.position, turned)
-            good &= self.query.is_upright(poses.angle, turned)
-            poses = poses.of(good)
-            poses = poses.of(self._validation.accepts(target, poses.position, poses.angle, turned, importance.scale))
-            rows = zip(poses.value * factor[k], poses.position, poses.angle, strict=True)
-            found.setdefault(target, []).extend((float(v), p, float(a), importance) for v, p, a in rows)
+        factor = [self._factor(importance) for importance in importances]
+        refined = refine(importances, [candidates for _, candidates in tried], factor, self._stands)
+        found: dict[Arrangement, list[Found]] = {i.target: [] for i in importances}
+        self._accept(importances, refined, found)
+        # Where no maximum may be accepted the object gives way.
+        left = [i for i in importances if not found[i.target]]
+        if left and self.footprint is not None and self.options.validate:
+            free = [self._candidates_of(i, spacing, FREE * i.width) for i in left]
+            factor = [self._factor(i) for i in left]
+            self._accept(left, give_way(left, free, factor, self._stands), found)
         results = []
         for target, places in found.items():
             value, _, angle, of = zip(*places, strict=True) if places else ((), (), (), ())
@@ -243,6 +249,29 @@ class PoseModel:
             order = self._ranked(np.array(value), mirrored, np.array(angle), [target.parent] * len(of))
             results += self._apart(target, [places[i] for i in order])
         return results
+
+    def _accept(
+        self, importances: Sequence[Importance], refined: Refined, found: dict[Arrangement, list[Found]]
+    ) -> None:
+        """Add the poses that may be answers to what is found in their arrangements."""
+        for k, mine in refined.by_importance():
+            importance, poses = importances[k], refined.of(mine)
+            target, turned, factor = importance.target, importance.mirrored, self._factor(importance)
+            good = poses.value * factor >= self.options.threshold
+            good &= ~self._is_example(target, poses.position, turned)
+            good &= self.query.is_upright(poses.angle, turned)
+            poses = poses.of(good)
+            poses = poses.of(self._accepts(importance, poses.position, poses.angle))
+            rows = zip(poses.value * factor, poses.position, poses.angle, strict=True)
+            found[target].extend((float(v), p, float(a), importance) for v, p, a in rows)
+
+    def _factor(self, importance: Importance) -> float:
+        return 1.0 if importance.scale == 1.0 else SCALED_FACTOR
+
+    def _accepts(self, importance: Importance, position: Array, angle: Array) -> NDArray[np.bool_]:
+        """Which poses intersect nothing that the example does not."""
+        i = importance
+        return self._validation.accepts(i.target, position, angle, i.mirrored, i.scale)
 
     def _stands(self, importance: Importance, position: Array, angle: Array, slack: float) -> NDArray[np.bool_]:
         """Whether poses that move no further than `slack`, in half-widths of level sets, may be accepted."""
@@ -278,7 +307,7 @@ class PoseModel:
             return 2 * self.query.width
         return float(np.ptp(self.footprint, axis=0).min()) / 2
 
-    def _apart(self, target: Arrangement, found: list[tuple[float, Array, float, Importance]]) -> list[PropagatedPose]:
+    def _apart(self, target: Arrangement, found: list[Found]) -> list[PropagatedPose]:
         """The best of one parent that keep their distance (non-maximum suppression)."""
         most = min(self.options.candidates, self.options.max_per.get(target.parent.label, self.options.candidates))
         in_space = self.options.accumulation == "pose space"

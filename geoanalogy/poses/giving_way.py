@@ -1,0 +1,101 @@
+"""The best poses that may be accepted, where no maximum of the importance may (section 4.8).
+
+In a room that is smaller or fuller than the example's, what the relations ask for is inside an obstacle or juts out of
+the room. The object then gives way: it stands at the best place beside.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..relations.elements import run_starts
+from .batch import Batch
+from .candidates import Candidates
+from .importance import Importance
+from .rivals import Refined, Stands
+
+#: How deep inside an obstacle a part of the object may be, in half-widths of level sets: at a candidate, less than it
+#: is moved aside; and where it stands, no more than what touches may share.
+FREE = 0.5
+TOUCHING = 0.02
+
+#: Candidates of each importance that are looked at; how far around one is looked for a free pose, in half-widths, and
+#: in how many directions: candidates are a little more than a half-width apart.
+STRONGEST = 8
+AROUND = (0.0, 0.6, 1.2)
+WAYS = 8
+
+#: Steps uphill at first, in half-widths, and how many there are: steps are halved where nothing gains, so that poses
+#: come to rest well within a thousandth of a room's size.
+FARTHEST = 1.0
+STEPS = 14
+
+
+def give_way(
+    importances: Sequence[Importance], candidates: Sequence[Candidates], factor: Sequence[float], stands: Stands
+) -> Refined:
+    """Move the best free poses uphill as far as nothing is in their way.
+
+    Parameters
+    ----------
+    importances : sequence of Importance
+        Of one query.
+    candidates : sequence of Candidates
+        Of each importance.
+    factor : sequence of float
+        What the importances are multiplied by before those of an arrangement are compared.
+    stands : callable
+        Which poses may stand.
+
+    Returns
+    -------
+    Refined
+        At most one of each arrangement.
+    """
+    turns = np.arange(WAYS) * (2 * np.pi / WAYS)
+    rings = np.array([(far * np.cos(t), far * np.sin(t)) for far in AROUND for t in turns[: WAYS if far else 1]])
+    positions, angles = [], []
+    for importance, every in zip(importances, candidates, strict=True):
+        c = every.of(np.argsort(-every.strength, kind="stable")[:STRONGEST])
+        cos, sin = np.cos(c.angle)[:, None], np.sin(c.angle)[:, None]
+        x, y = importance.width * rings.T
+        around = np.stack([cos * x - sin * y, sin * x + cos * y], axis=-1) + c.position[:, None]
+        position, angle = around.reshape(-1, 2), np.repeat(c.angle, len(rings))
+        free = stands(importance, position, angle, TOUCHING)
+        positions.append(position[free])
+        angles.append(angle[free])
+    which = np.repeat(np.arange(len(importances)), [len(a) for a in angles])
+    position, angle = np.concatenate(positions), np.concatenate(angles)
+    if not len(angle):
+        return Refined(which, position, angle, np.zeros(0))
+    batch = Batch(importances)
+    poses = Refined(which, position, angle, batch.importance(which, position, angle))
+    room = batch.arrangement[which]
+    order = np.lexsort((-poses.value * np.asarray(factor)[which], room))
+    best = order[run_starts(room[order])]
+    return _uphill(batch, importances, poses.of(np.sort(best)), stands)
+
+
+def _uphill(batch: Batch, importances: Sequence[Importance], poses: Refined, stands: Stands) -> Refined:
+    """Poses moved in ever smaller steps, never to one that may not stand."""
+    every = np.arange(len(poses.which))
+    far = STEPS * FARTHEST
+    rows = batch.near(poses.which, poses.position, poses.angle, far, far * batch.unit[0, 2]).rows(np.repeat(every, 6))
+    reach = FARTHEST * batch.unit[poses.which]
+    for _ in range(STEPS):
+        before = poses.value
+        c, s = np.cos(poses.angle), np.sin(poses.angle)
+        ahead, across = reach[:, :1] * np.column_stack([c, s]), reach[:, 1:2] * np.column_stack([-s, c])
+        still = np.zeros_like(ahead)
+        position = poses.position[:, None] + np.stack([ahead, -ahead, across, -across, still, still], axis=1)
+        angle = poses.angle[:, None] + reach[:, 2:] * np.array([0, 0, 0, 0, 1, -1])
+        offered = batch.total(rows, position.reshape(-1, 2), angle.ravel()).reshape(angle.shape)
+        better = offered > before[:, None]
+        for k, mine in poses.by_importance():
+            gains = better[mine]
+            gains[gains] = stands(importances[k], position[mine][gains], angle[mine][gains], TOUCHING)
+        offered = np.where(better, offered, -1.0)
+        way = np.argmax(offered, axis=1)
+        poses = poses.bettered(position[every, way], angle[every, way], offered[every, way])
+        reach = np.where((poses.value > before)[:, None], reach, reach / 2)
+    return poses
