@@ -67,7 +67,7 @@ def test_maps_of_truth_turn_nothing_inside_out(picture):
             assert max((area > 0.0).mean(), (area < 0.0).mean()) > 0.99
 
 
-@pytest.mark.parametrize("name", ["corals", "flowers"])
+@pytest.mark.parametrize("name", ["corals", "flowers", "sun"])
 def test_everything_alike_is_found_and_nothing_else(name):
     picture = picture_of(name)
     for edit in picture.edits:
