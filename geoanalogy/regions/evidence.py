@@ -181,19 +181,32 @@ def agreement(
         Score of the best alignment.
     """
     chained = np.zeros((len(unknowns), *chains.most.shape))
-    share = _agreeing(fitter, unknowns, mirrored, chains.found)
+    share = agreeing(fitter, unknowns, mirrored, chains.found)
     for k, chain in enumerate(chains.found):
         here = chained[:, chain.grade, chain.run]
         np.maximum(here, chain.score * share[:, k], out=here)
     scores = np.array([a.score for a in alignments])
-    aligned = (_agreeing(fitter, unknowns, mirrored, alignments) * scores).max(1, initial=0.0)
+    aligned = (agreeing(fitter, unknowns, mirrored, alignments) * scores).max(1, initial=0.0)
     return chained.sum(2).mean(1), aligned
 
 
-def _agreeing(
+def agreeing(
     fitter: Fitter, unknowns: Complex, mirrored: NDArray[np.bool_], some: Sequence[Chain | Alignment]
 ) -> Floats:
-    """How far functions agree with chains or alignments, (h, k) from 0 to 1."""
+    """How far functions agree with chains or alignments.
+
+    Parameters
+    ----------
+    fitter : Fitter
+    unknowns : (h, 2m) complex
+    mirrored : (h,) bool
+    some : sequence of Chain or Alignment
+
+    Returns
+    -------
+    (h, k) float
+        0 to 1.
+    """
     if not some or not len(unknowns):
         return np.zeros((len(unknowns), len(some)))
     picked = [np.linspace(0, len(c.source) - 1, LOOKED_AT).round().astype(int) for c in some]
@@ -338,7 +351,7 @@ def _course(fitter: Fitter, fit: Fit) -> tuple[float, float]:
     if not both.any():
         return 1.0, 0.5
     sense = -1.0 if fit.function.mirrored else 1.0
-    unknowns = np.concatenate([fit.function.position, fit.function.factor])
+    unknowns = fit.function.unknowns
     way = np.angle(fitter.sampling.ahead @ unknowns - fitter.sampling.rows @ unknowns)
     turned = t.heading[fit.counterpart[both]] - t.heading[before[both]]
     turned = (turned + np.pi) % (2.0 * np.pi) - np.pi

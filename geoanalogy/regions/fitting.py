@@ -11,17 +11,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from ..geometry.contours import Complex, Contours, Floats
-from .courses import Course, lengths
+from .growing import grown
 from .query import Query
+from .samples import Samples, Sampling
+from .target import Target
 from .transformation import Nodes, TransformationFunction, smoothness
 
-#: Samples of the query's lines, and stretches, longest first, that get any.
-SAMPLES, MOST_RUNS = 96, 40
-#: Candidate counterparts of each of SAMPLES: so many to each side of the nearest point of a line.
-BAND = 7
 #: Stiffness of the functions, round by round: (strain, bend) weights beside a mean squared distance of 1.
 ROUNDS = ((0.3, 0.3), (0.1, 0.2), (0.03, 0.1), (0.02, 0.1), (0.01, 0.1), (0.01, 0.1))
 #: After so many rounds only some candidates are fitted on: those with most counterparts and evidence.
@@ -60,105 +57,6 @@ FITTING, MEASURING = Costs(0.8, 3.0, 0.15), Costs(0.35, 1.5, 0.4)
 #: Cost of stepping to another line (and the squared distance, in units of FAR, by which the step misses the one of the
 #: image), and of any step at most.
 CHANGE, MOST_COST = 0.15, 4.0
-
-
-@dataclass(frozen=True)
-class Samples:
-    """Samples of the query's lines.
-
-    Attributes
-    ----------
-    points : (s,) complex
-    heading : (s,) float
-        Direction of the line.
-    step : (s,) float
-        Arc length to the sample before; 0 where a stretch begins.
-    turn : (s,) float
-        Turn from the sample before.
-    """
-
-    points: Complex
-    heading: Floats
-    step: Floats
-    turn: Floats
-
-    @property
-    def turning(self) -> float:
-        """The sum of the unsigned turns, radians."""
-        return float(np.abs((self.turn + np.pi) % (2.0 * np.pi) - np.pi).sum())
-
-    @classmethod
-    def of(cls, contours: Contours, query: Query, number: int) -> "Samples":
-        """Spread about `number` samples over the lines of the query by length."""
-        length = lengths(contours, query.runs)
-        parts: list[tuple[Complex, Floats, Floats, Floats]] = []
-        for run, own in zip(query.runs[:MOST_RUNS], length, strict=False):
-            count = max(2, round(number * own / length.sum()))
-            course = Course.along(contours, run, count)
-            heading = course.heading
-            step = np.full(count, own / (count if run.closed else count - 1))
-            step[0] = 0.0
-            parts.append((course.points, heading, step, np.diff(heading, prepend=heading[0])))
-        return cls(*(np.concatenate(p) for p in zip(*parts, strict=True)))
-
-
-@dataclass(frozen=True)
-class Sampling:
-    """Samples, and where functions take them.
-
-    Attributes
-    ----------
-    samples : Samples
-    rows, ahead : (s, 2m) complex
-        The linear maps from the unknowns of a function to the images of the samples, and of points just ahead of them.
-    band : int
-        Candidate counterparts of a sample: so many to each side of the nearest point of a line.
-    """
-
-    samples: Samples
-    rows: Complex
-    ahead: Complex
-    band: int
-
-    @classmethod
-    def of(cls, contours: Contours, query: Query, nodes: Nodes, coarse: int) -> "Sampling":
-        """The sampling by every `coarse`-th of SAMPLES, whose counterparts are looked for about as far."""
-        samples = Samples.of(contours, query, SAMPLES // coarse)
-        ahead = samples.points + 1e-3 * query.size * np.exp(1j * samples.heading)
-        return cls(samples, nodes.rows(samples.points), nodes.rows(ahead), -(-BAND // coarse))
-
-
-class Target:
-    """The lines on which targets are looked for: the contours outside the query."""
-
-    def __init__(self, contours: Contours, query: Query):
-        keep = ~query.inside
-        self.index = np.flatnonzero(keep)
-        self.points = contours.points[keep]
-        self.heading = contours.heading[keep]
-        self.spacing = contours.weight[keep]
-        line = contours.line[keep]
-        gap = np.flatnonzero(np.diff(self.index) > 1) + 1
-        begin = np.unique(np.concatenate([[0], np.flatnonzero(np.diff(line)) + 1, gap])).astype(int)
-        self.stretch = np.zeros(len(line), int)
-        self.stretch[begin[1:]] = 1
-        self.stretch = np.cumsum(self.stretch)
-        self.begin = begin
-        self.count = np.diff(np.append(begin, len(line)))
-        whole = self.count == np.diff(contours.first)[line[begin]]
-        self.closed = contours.closed[line[begin]] & whole
-        # number of a point along its stretch, and of points once round it
-        self.place = np.arange(len(line)) - begin[self.stretch]
-        self.around = np.where(self.closed, self.count, 10**9)[self.stretch]
-        self.tree = cKDTree(np.stack([self.points.real, self.points.imag], 1))
-
-    def walk(self, start: NDArray[np.intp], offset: NDArray[np.intp]) -> NDArray[np.intp]:
-        """Indices `offset` points along the line from `start`; -1 beyond the end of an open one."""
-        k = self.stretch[start]
-        at = start - self.begin[k] + offset
-        n = self.count[k]
-        out = self.begin[k] + at % n
-        return np.where(self.closed[k] | ((at >= 0) & (at < n)), out, -1)
 
 
 @dataclass(frozen=True)
@@ -247,8 +145,25 @@ class Fitter:
                 best = order[self.apart(unknowns[order], mirrored[order], *finalists)]
                 unknowns, mirrored = unknowns[best], mirrored[best]
                 sampling = self.sampling
-            _, image, weight, _, _ = self.counterparts(sampling, unknowns, mirrored, FITTING)
-            unknowns = self.solve(sampling.rows, image, weight + 1e-6, stiffness)
+            unknowns = self.moved(sampling, unknowns, mirrored, stiffness)
+        return self.measured(unknowns, mirrored)
+
+    def moved(
+        self,
+        sampling: Sampling,
+        unknowns: Complex,
+        mirrored: NDArray[np.bool_],
+        stiffness: tuple[float, float],
+        growing: bool = False,
+    ) -> Complex:
+        """One round: functions (h, 2m) moved onto their counterparts, which may be continued along the lines."""
+        at, image, weight, _, _ = self.counterparts(sampling, unknowns, mirrored, FITTING)
+        if growing:
+            image, weight = grown(sampling, self.target, unknowns, mirrored, (at, image, weight))
+        return self.solve(sampling.rows, image, weight + 1e-6, stiffness)
+
+    def measured(self, unknowns: Complex, mirrored: NDArray[np.bool_]) -> list[Fit]:
+        """Functions as fits: with counterparts that say what they are worth."""
         at, _, _, distance, tilt = self.counterparts(self.sampling, unknowns, mirrored, MEASURING)
         m = len(self.nodes.at)
         return [

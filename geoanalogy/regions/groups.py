@@ -11,7 +11,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from ..geometry.contours import Complex
-from .fitting import Target
+from .target import Target
 
 #: Gaps, in extents of the query, that part groups.
 GAPS = (0.05, 0.12, 0.25)

@@ -1,15 +1,17 @@
 """Matching regions (algorithm 3.1): from a drawing and a query to the similar regions, with their dense mappings."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..geometry.contours import Complex, Floats
+from ..geometry.contours import Complex, Contours, Floats
 from ..geometry.drawing import Drawing
 from ..progress import Progress, Stepper, run, within
-from .candidates import candidates
+from .candidates import Candidates, candidates
+from .consensus import settled
 from .evidence import Evidence, agreement, corners_met, evidence, marked_evidence, node_support, support
 from .fitting import Fit, Fitter
 from .marks import laid, of_marks
@@ -26,6 +28,8 @@ FINALISTS, BRANCH_FINALISTS = (4, 24), (32, 40)
 SHARED = 0.5
 #: The same for branches, which share the lines of their trunk.
 ALL_SHARED = 0.85
+#: Matches, best first, that are laid along their lines by all that agrees with them, of those that are shown.
+MOST_SETTLED = 12
 
 
 class RegionMatch:
@@ -40,7 +44,7 @@ class RegionMatch:
     coverage : float
         Share of the length of the query's lines that has a counterpart in the target; the rest is extrapolated.
     evidence : Evidence
-        The factors of the similarity.
+        The factors of the similarity: those of the fit by which the target was found.
     function : TransformationFunction
         The transformation function in the drawing's frame.
     """
@@ -194,6 +198,7 @@ def matching(
     nodes = Nodes.of(region.points, region.spacing, options.neighbourhood)
     fitter = Fitter(contours, region, nodes)
     refined: Refined | None = None
+    judge: _Judge | None = None
     fits: list[tuple[Fit, Evidence]] = []
     if of_marks(contours, region):
         yield 0.1, "laying marks over marks"
@@ -204,36 +209,65 @@ def matching(
         refined = found.refined
         yield 0.8, "fitting to the lines"
         if found.starts:
-            finalists = BRANCH_FINALISTS if options.branches else FINALISTS
-            most = float(found.chains.most.sum(1).mean())
-
-            def agreeing(unknowns: Complex, mirrored: NDArray[np.bool_]) -> tuple[Floats, Floats]:
-                return agreement(fitter, unknowns, mirrored, found.chains, found.alignments)
-
-            fitted = fitter.fit(
-                np.array([u for u, _ in found.starts]),
-                np.array([flip for _, flip in found.starts]),
-                finalists,
-                lambda unknowns, mirrored: corners_met(agreeing(unknowns, mirrored)[0], most),
+            judge = _Judge(fitter, region, found, contours, options)
+            fits = judge.weighed(
+                fitter.fit(
+                    np.array([u for u, _ in found.starts]),
+                    np.array([flip for _, flip in found.starts]),
+                    BRANCH_FINALISTS if options.branches else FINALISTS,
+                    judge.corners,
+                ),
+                again=True,
             )
-            functions = [f.function for f in fitted]
-            chained, along = agreeing(
-                np.array([np.concatenate([f.position, f.factor]) for f in functions]),
-                np.array([f.mirrored for f in functions]),
-            )
-            weak = wanting(fitter, fitted, corners_met(chained, most))
-            again = retraced(contours, region, fitter, [fitted[i] for i in weak], options.mirrored)
-            chained[weak] = np.maximum(chained[weak], again)
-            fits = [
-                (fit, evidence(fitter, region, fit, (float(c), most), float(a), options.joint_tolerance))
-                for fit, c, a in zip(fitted, chained, along, strict=True)
-            ]
     yield 0.9, "choosing"
     fits.sort(key=lambda f: -f[1].similarity)
     kept = list(_separate(fits, fitter, options.branches))[: options.most]
-    chosen = [RegionMatch(drawing, fit, e, node_support(fitter, support(fit))) for fit, e in kept]
-    shown = least_shown(np.array([m.similarity for m in chosen]), options.threshold, options.contrast)
+    shown = least_shown(np.array([e.similarity for _, e in kept]), options.threshold, options.contrast)
+    chosen: list[RegionMatch] = []
+    for fit, measured in kept:
+        if judge and len(chosen) < MOST_SETTLED and measured.similarity >= shown:
+            fit = settled(fitter, fit, judge.found.chains, judge.found.alignments, judge.similarity)
+        chosen.append(RegionMatch(drawing, fit, measured, node_support(fitter, support(fit))))
     return Matches(chosen, shown, refined, nodes, region.size)
+
+
+@dataclass(frozen=True)
+class _Judge:
+    """What fits to lines are worth, with the chains and alignments that were found."""
+
+    fitter: Fitter
+    region: Query
+    found: Candidates
+    contours: Contours
+    options: RegionOptions
+
+    @property
+    def most(self) -> float:
+        """What the chains of an identical copy would be worth."""
+        return float(self.found.chains.most.sum(1).mean())
+
+    def corners(self, unknowns: Complex, mirrored: NDArray[np.bool_]) -> Floats:
+        """Evidence of the chains that agree with functions, (h,) from 0 to 1."""
+        chained, _ = agreement(self.fitter, unknowns, mirrored, self.found.chains, self.found.alignments)
+        return corners_met(chained, self.most)
+
+    def weighed(self, fits: list[Fit], again: bool) -> list[tuple[Fit, Evidence]]:
+        """Fits with their evidence; `again`: chains are retraced along those that have little."""
+        unknowns, mirrored = np.array([f.function.unknowns for f in fits]), [f.function.mirrored for f in fits]
+        chained, along = agreement(self.fitter, unknowns, np.array(mirrored), self.found.chains, self.found.alignments)
+        if again:
+            weak = wanting(self.fitter, fits, corners_met(chained, self.most))
+            found = retraced(self.contours, self.region, self.fitter, [fits[i] for i in weak], self.options.mirrored)
+            chained[weak] = np.maximum(chained[weak], found)
+        tolerance = self.options.joint_tolerance
+        return [
+            (fit, evidence(self.fitter, self.region, fit, (float(c), self.most), float(a), tolerance))
+            for fit, c, a in zip(fits, chained, along, strict=True)
+        ]
+
+    def similarity(self, fits: list[Fit]) -> Floats:
+        """How alike the targets of fits are, (k,)."""
+        return np.array([measured.similarity for _, measured in self.weighed(fits, again=False)])
 
 
 def _separate(found: list[tuple[Fit, Evidence]], fitter: Fitter, branches: bool) -> Iterator[tuple[Fit, Evidence]]:

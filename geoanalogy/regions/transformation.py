@@ -97,9 +97,14 @@ class TransformationFunction:
     factor: Complex
     mirrored: bool
 
+    @property
+    def unknowns(self) -> Complex:
+        """Positions, then factors, (2m,): what a fit solves for."""
+        return np.concatenate([self.position, self.factor])
+
     def __call__(self, z: Complex) -> Complex:
         """Images of points of the query, (k,) complex."""
-        image = self.nodes.rows(z) @ np.concatenate([self.position, self.factor])
+        image = self.nodes.rows(z) @ self.unknowns
         return np.conj(image) if self.mirrored else image
 
 

@@ -8,10 +8,11 @@ from drawn import closed, fish, moved
 import geoanalogy as ga
 from geoanalogy.progress import run
 from geoanalogy.regions.alignment import GAIN, align
-from geoanalogy.regions.fitting import Fitter, Sampling, distinct
+from geoanalogy.regions.fitting import Fitter, distinct
 from geoanalogy.regions.linkage import clusters, similarities
 from geoanalogy.regions.query import Query, Run
 from geoanalogy.regions.refinement import Refined, modes
+from geoanalogy.regions.samples import Sampling
 from geoanalogy.regions.transformation import Nodes
 
 OUTLINE = fish()[0][:-1]
