@@ -11,7 +11,7 @@ from .batch.detail import DETAILS
 from .batch.generation import Choices, Job, generate, merged
 from .batch.manifest import file_of, manifest, manifest_bytes
 from .batch.product import Product
-from .batch.store import ready
+from .batch.store import ensure_folder, ready
 from .batch.tiles import PARCELS_PER_TILE, wanted_labels
 from .errors import InputError
 from .formats import obj
@@ -116,6 +116,8 @@ def apply(arguments: argparse.Namespace, progress: Progress) -> str:
     results = results_of(arguments)
     if arguments.library is not None and not arguments.library.is_file():
         raise InputError(f"{arguments.library} is not there; check the path")
+    if arguments.tiles is not None:  # before the long work, in case it cannot be made
+        ensure_folder(arguments.tiles)
     meshes_only = arguments.output is not None and arguments.output.suffix.lower() == ".obj"
     drawn = [path for path in results if not (meshes_only and path == arguments.output)]
     if drawn:  # before the long work, in case there is no Blender

@@ -9,6 +9,24 @@ from ..errors import InputError
 from .product import Product
 
 
+def ensure_folder(folder: Path) -> None:
+    """Make a folder where it is not there.
+
+    Parameters
+    ----------
+    folder : Path
+
+    Raises
+    ------
+    OSError
+        Where it cannot be made, naming it.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OSError(f"cannot make the folder {folder}: {error.strerror or error}") from None
+
+
 class Store:
     """A folder with the jobs and products of tiles, by what they depend on.
 
@@ -27,7 +45,7 @@ class Store:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        folder.mkdir(parents=True, exist_ok=True)
+        ensure_folder(folder)
 
     def path(self, key: str) -> Path:
         """Where the product of a tile is kept.

@@ -170,6 +170,15 @@ def test_a_tree_without_operations_is_named(files, capsys):
     assert "geoanalogy: bare.json has no operations; record some and save it again" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("option", ["--work", "--tiles"])
+def test_a_folder_that_cannot_be_made_is_named(files, capsys, option):
+    (files / "file").write_text("no folder")
+    path, output = parcels(files, GOOD), files / ("out.blend" if option == "--tiles" else "out.obj")
+    command = ["apply", "--tree", str(files / "tree.json"), "--parcels", str(path), "--output", str(output)]
+    assert main([*command, option, str(files / "file")]) == ExitCode.WRITE_FAILED
+    assert f"geoanalogy: cannot make the folder {files / 'file'}: File exists" in capsys.readouterr().err
+
+
 def test_it_can_be_cancelled(files):
     with pytest.raises(Cancelled):
         apply_file(files / "tree.json", parcels(files, GOOD), progress=lambda *_: False)

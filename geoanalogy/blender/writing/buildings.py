@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...batch.product import Product
+from ...batch.store import ensure_folder
 from ...errors import InputError
 from ...geometry.extrusion import triangulated
 from ...geometry.mesh import Mesh, joined
@@ -139,7 +140,7 @@ def _linked(
 ) -> tuple[bpy.types.Scene, Built]:
     """A .blend per tile, and a scene that links them."""
     folder = results.tiles
-    folder.mkdir(parents=True, exist_ok=True)
+    ensure_folder(folder)
     written: list[tuple[str, Path]] = []
     boxes, problems, instances = [], {}, 0
     for name, product in products:
