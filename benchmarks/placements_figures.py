@@ -1,4 +1,4 @@
-"""Draw figures 5.4 and 5.10 to 5.13 into docs/figures.
+"""Draw figures 5.4 and 5.10 to 5.13, and windows drawn by eye, into docs/figures.
 
     python -m benchmarks.placements_figures [NAME …]
 
@@ -173,6 +173,16 @@ def figure_5_13() -> Figure:
         text = f"score {p.score:.2f}\nnovelty {p.novelty:.2f}"
         draw.note(ax, (p.rectangle.x + 3.2, p.rectangle.y), text, fontsize=5)
     return figure
+
+
+def figure_windows_by_eye() -> Figure:
+    """Windows drawn by eye on a plain facade: a row, one with a gap, and two rows."""
+    cases = [
+        ("a row", ((0, 1), (1, 1), (2, 1))),
+        ("one is left out", ((0, 1), (1, 1), (3, 1))),
+        ("two rows", ((0, 1), (1, 1), (1, 0), (2, 0))),
+    ]
+    return _compared([(text, arrangements.windows_by_eye(places), None) for text, places in cases], 9.5, 1.7)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
-"""The scenes of figures 5.4 and 5.10 to 5.13: rectangles that are shown, and where they are wanted."""
+"""The scenes of figures 5.4 and 5.10 to 5.13, and windows drawn by eye: what is shown, and where more is wanted."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+
+import numpy as np
 
 import geoanalogy as ga
 
@@ -127,3 +129,15 @@ def floors() -> Arrangement:
     """Figure 5.13: roofs above the doors of houses of one floor; the last house has two."""
     scene = ga.Scene(facade(0, 3, 1, "o") + facade(12, 4, 1, "p") + facade(27, 3, 1, "s") + facade(39, 3, 2, "t"))
     return Arrangement(scene, (ga.Rectangle(5, 2.7, 2, 0.4), ga.Rectangle(18.5, 2.7, 2, 0.4)), "facade")
+
+
+def windows_by_eye(places: tuple[tuple[int, int], ...], seed: int = 0) -> Arrangement:
+    """A plain facade with a door, and windows of some columns and rows, 3 % off in size and place as one draws them."""
+    rng = np.random.default_rng(seed)
+    scene = ga.Scene([polygon(0, 0, 20, 9, "facade", "f"), polygon(9.3, 0, 1.4, 2.4, "door", "d")])
+    shown = []
+    for column, row in places:
+        width, height = np.array([1.2, 1.6]) * (1 + rng.uniform(-0.03, 0.03, 2))
+        x, y = np.array([2 + 2.6 * column, 3.6 + 3.4 * row]) + rng.uniform(-0.03, 0.03, 2) * (width, height)
+        shown.append(ga.Rectangle(float(x), float(y), float(width), float(height)))
+    return Arrangement(scene, tuple(shown), "facade")

@@ -40,7 +40,7 @@ ALIKE, SURELY_ALIKE, UNLIKE = 0.85, 0.9, 0.7
 #: Overlap with a candidate from which others are around it: of its place, with other edges.
 AROUND = 0.3
 #: By what the odds are multiplied of what keeps to what all examples keep to exactly, for every example that confirms
-#: another one, as long as these are few; and of what does not.
+#: another one (a single one for itself), as long as these are few; and of what does not.
 EXACT, INEXACT, MOST_FAVOURS = 3.0, 0.1, 4
 #: Examples from which what they keep to exactly is no accident: elements then predict all that is meant, rows nothing.
 FEW_EXACT = 3
@@ -255,7 +255,7 @@ def search(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
     every = np.hstack([single, among, settled])
     certainty = np.maximum(judge.settle.certainty(every), likeness(similar[:, lesson.positive]))
     # What keeps exactly to what examples keep to exactly follows the rule, whatever the weights say; the rest does not.
-    favour = EXACT ** min(len(lesson.positive) - 1, MOST_FAVOURS)
+    favour = EXACT ** np.clip(len(lesson.positive) - 1, 1, MOST_FAVOURS)
     exactness = np.where(np.isnan(exact), 0.0, (1 - exact) * np.log(INEXACT) + exact * np.log(favour))
     certainty = more_certain(certainty, exactness)
     follows = exact >= 1 - EQUALLY_ALIKE
