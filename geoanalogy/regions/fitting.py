@@ -270,11 +270,11 @@ class Fitter:
         place, side = target.place[at].astype(single), side.astype(single)
         spacing, around = target.spacing[at].astype(single), target.around[at].astype(single)
         away = (point - seen[:, :, None]).astype(np.complex64)
-        full = np.empty((count, width + 1, width + 1), single)
+        full = np.empty((count, width + 1, width + 1), single)  # the candidate before last: minima of rows are fast
         full[:, -1, :] = full[:, :, -1] = 0.3
         full[:, -1, -1] = 0.0
         for i in range(1, length):
-            before, here = (slice(None), i - 1, slice(None), None), (slice(None), i, None, slice(None))
+            before, here = (slice(None), i - 1, None, slice(None)), (slice(None), i, slice(None), None)
             move = full[:, :-1, :-1]
             if s.step[i] == 0.0:
                 move[...] = 0.0
@@ -296,9 +296,10 @@ class Fitter:
                 if other.any():
                     jump = np.abs(away[here] - away[before]) / unit
                     np.copyto(move, np.minimum(single(CHANGE) + jump**2, single(MOST_COST)), where=other)
-            step = full + total[:, :, None]
-            back[i] = step.argmin(1)
-            total = step.min(1)
+            step = full + total[:, None, :]
+            best = step.argmin(2)
+            back[i] = best
+            total = np.take_along_axis(step, best[:, :, None], 2)[:, :, 0]
             total[:, :-1] += cost[:, i]
             total[:, -1] += missing
         chosen = np.empty((count, length), int)
