@@ -30,9 +30,9 @@ CUT = 1.35
 #: Finishes of the floors of rooms.
 FLOORS = {"bedroom": "parquet", "living room": "dark parquet", "bathroom": "bath tiles", "corridor": "corridor carpet"}
 
-#: Stairs, metres: rise and tread of a step, width of a flight, how far it begins from the corridor, and the widest hall
-#: that is a staircase: wider ones lead to a wing.
-RISE, TREAD, FLIGHT, BEFORE, STAIRCASE = 0.17, 0.28, 1.3, 1.2, 6.0
+#: Stairs, metres: rise and tread of a step, width of a flight, and the widest hall that is a staircase: wider ones lead
+#: to a wing.
+RISE, TREAD, FLIGHT, STAIRCASE = 0.17, 0.28, 1.3, 6.0
 
 
 def furnish(storey: Storey, seed: int = 0) -> tuple[Applied, Applied]:
@@ -88,15 +88,16 @@ def walls(storey: Storey) -> Iterator[Mesh]:
 
 
 def stairs(storey: Storey) -> Iterator[Mesh]:
-    """Flights up to the next storey along a wall of its halls, as far as they are not cut off, in its own frame."""
+    """Flights in the middle of its halls, towards a wall, as far as they are not cut off; in its own frame."""
+    count = int(CUT / RISE)
     for x0, y0, x1, y1 in storey.halls():
         if x1 - x0 > STAIRCASE:
             continue
-        away, start = (-1.0, y1) if y0 <= 0.0 else (1.0, y0)
-        for k in range(int(CUT / RISE)):
-            ends = sorted(start + away * (BEFORE + TREAD * step) for step in (k, k + 1))
-            step = ga.Polygon(rectangle(x0, ends[0], x0 + FLIGHT, ends[1]))
-            yield extrude(step, RISE * (k + 1), FaceLabels("granite", "granite", "granite")).mesh
+        middle = (y0 + y1) / 2
+        for k in range(count):
+            x = x0 + TREAD * (count - 1 - k)
+            step = ga.Polygon(rectangle(x, middle - FLIGHT / 2, x + TREAD, middle + FLIGHT / 2))
+            yield extrude(step, RISE * (k + 1), FaceLabels("granite", "plaster cream", "granite")).mesh
 
 
 def below(mesh: Mesh, height: float) -> Mesh | None:
