@@ -12,10 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.contours import Complex, Floats
-from .alignment import GAIN, Alignment
-from .chains import Chain, Chains
-from .evidence import agreeing
 from .fitting import Fit, Fitter
+from .guides import Guides
 
 #: How far chains and alignments must agree with a fit, and how many are fitted beside it.
 LEAST_AGREEING, MOST = 0.25, 4
@@ -32,8 +30,7 @@ LEAST_ALIKE = 1e-9
 def settled(
     fitter: Fitter,
     fit: Fit,
-    chains: Chains,
-    alignments: list[Alignment],
+    guides: Guides,
     similarity: Callable[[list[Fit]], Floats],
 ) -> Fit:
     """The average of a fit and of those nearby that other chains and alignments lead to.
@@ -42,8 +39,7 @@ def settled(
     ----------
     fitter : Fitter
     fit : Fit
-    chains : Chains
-    alignments : list of Alignment
+    guides : Guides
     similarity : callable
         How alike the targets of fits are, (k,).
 
@@ -51,7 +47,7 @@ def settled(
     -------
     Fit
     """
-    unknowns = _variants(fitter, fit, chains, alignments)
+    unknowns = _variants(fitter, fit, guides)
     mirrored = np.full(len(unknowns), fit.function.mirrored)
     average = averaged(unknowns, similarity(fitter.measured(unknowns, mirrored)), fitter.size)[None]
     # what lies between lines is no evidence: the average is laid onto them
@@ -81,15 +77,12 @@ def averaged(unknowns: Complex, alike: Floats, size: float) -> Complex:
     return np.asarray(weight @ unknowns / weight.sum(), dtype=np.complex128)
 
 
-def _variants(fitter: Fitter, fit: Fit, chains: Chains, alignments: list[Alignment]) -> Complex:
+def _variants(fitter: Fitter, fit: Fit, guides: Guides) -> Complex:
     """The unknowns of a fit, of the same with its counterparts continued, and of what agrees with it, (k, 2m)."""
     own = fit.function.unknowns
-    some: list[Chain | Alignment] = [*chains.found, *alignments]
-    whole = [float(chains.most[c.grade, c.run]) for c in chains.found] + [GAIN] * len(alignments)
-    share = agreeing(fitter, own[None], np.array([fit.function.mirrored]), some)[0]
-    worth = share * np.array([c.score for c in some]) / np.array(whole)
-    best = np.argsort(-worth, kind="stable")[:MOST]
-    near = [some[k] for k in best if share[k] > LEAST_AGREEING]
+    share = guides.agreeing(own[None], np.array([fit.function.mirrored]))[0]
+    best = np.argsort(-share * guides.worth, kind="stable")[:MOST]
+    near = [guides.every[k] for k in best if share[k] > LEAST_AGREEING]
     unknowns = np.array([own, *(fitter.start(c.source, c.target, np.ones(len(c.source)), START) for c in near)])
     mirrored: NDArray[np.bool_] = np.full(len(unknowns), fit.function.mirrored)
     for number, stiffness in enumerate(ROUNDS):

@@ -6,7 +6,6 @@ So the similarity is a product of factors, each from 0 to 1, of which the TPS is
 the lines.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,8 +13,7 @@ import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from ..geometry.contours import Complex, Floats, even
-from .alignment import GAIN, Alignment
-from .chains import Chain, Chains
+from .alignment import GAIN
 from .fitting import Fit, Fitter
 from .marks import Marked
 from .query import Query
@@ -48,10 +46,6 @@ ENOUGH = 15.0
 #: Share of what a perfect alignment, or chain, is worth that is as good as perfect: bent lines are a little longer here
 #: and there, and corners of smooth lines fall a little differently.
 AS_GOOD = 0.8
-#: Mean distance, in extents of the query at the target's scale, at which a chain or alignment agrees with a fit to 0.6.
-AGREEING = 0.06
-#: Points of a chain or an alignment that are looked at.
-LOOKED_AT = 8
 #: Root of the product of the sums of squared turns (square radians) below which two lines are evenly bent, and alike.
 LEAST_SPREAD = 1e-3
 #: Coverage below which a match is a guess: whatever else is measured, is measured on too few lines to say much.
@@ -158,65 +152,6 @@ def node_support(fitter: Fitter, found: Floats) -> Floats:
     gap = np.abs(fitter.nodes.at[:, None] - fitter.sampling.samples.points[None])
     weight = np.exp(-0.5 * (gap / (2.0 * fitter.nodes.spacing)) ** 2) + 1e-12
     return (weight @ found) / weight.sum(1)
-
-
-def agreement(
-    fitter: Fitter, unknowns: Complex, mirrored: NDArray[np.bool_], chains: Chains, alignments: list[Alignment]
-) -> tuple[Floats, Floats]:
-    """What the chains and alignments that agree with each function are worth.
-
-    Parameters
-    ----------
-    fitter : Fitter
-    unknowns : (h, 2m) complex
-    mirrored : (h,) bool
-    chains : Chains
-    alignments : list[Alignment]
-
-    Returns
-    -------
-    chained : (h,) float
-        Scores of the best chain of each grade and stretch, averaged over the grades and added over the stretches.
-    aligned : (h,) float
-        Score of the best alignment.
-    """
-    chained = np.zeros((len(unknowns), *chains.most.shape))
-    share = agreeing(fitter, unknowns, mirrored, chains.found)
-    for k, chain in enumerate(chains.found):
-        here = chained[:, chain.grade, chain.run]
-        np.maximum(here, chain.score * share[:, k], out=here)
-    scores = np.array([a.score for a in alignments])
-    aligned = (agreeing(fitter, unknowns, mirrored, alignments) * scores).max(1, initial=0.0)
-    return chained.sum(2).mean(1), aligned
-
-
-def agreeing(
-    fitter: Fitter, unknowns: Complex, mirrored: NDArray[np.bool_], some: Sequence[Chain | Alignment]
-) -> Floats:
-    """How far functions agree with chains or alignments.
-
-    Parameters
-    ----------
-    fitter : Fitter
-    unknowns : (h, 2m) complex
-    mirrored : (h,) bool
-    some : sequence of Chain or Alignment
-
-    Returns
-    -------
-    (h, k) float
-        0 to 1.
-    """
-    if not some or not len(unknowns):
-        return np.zeros((len(unknowns), len(some)))
-    picked = [np.linspace(0, len(c.source) - 1, LOOKED_AT).round().astype(int) for c in some]
-    source = np.concatenate([c.source[at] for c, at in zip(some, picked, strict=True)])
-    goal = np.concatenate([c.target[at] for c, at in zip(some, picked, strict=True)])
-    rows = fitter.nodes.rows(source)
-    unit = np.abs(unknowns[:, len(fitter.nodes.at) :]).mean(1) * fitter.size
-    gap = np.abs(unknowns @ rows.T - goal).reshape(len(unknowns), len(some), LOOKED_AT).mean(2)
-    share = np.exp(-0.5 * (gap / (AGREEING * unit[:, None])) ** 2)
-    return np.where(mirrored[:, None] == np.array([c.mirrored for c in some]), share, 0.0)
 
 
 def corners_met(chained: Floats, most: float) -> Floats:

@@ -10,10 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 from ..geometry.contours import Complex, Contours, Floats
 from ..geometry.drawing import Drawing
 from ..progress import Progress, Stepper, run, within
-from .candidates import Candidates, candidates
+from .candidates import candidates
 from .consensus import settled
-from .evidence import Evidence, agreement, corners_met, evidence, marked_evidence, node_support, support
+from .evidence import Evidence, corners_met, evidence, marked_evidence, node_support, support
 from .fitting import Fit, Fitter
+from .guides import Guides
 from .marks import laid, of_marks
 from .options import RegionOptions
 from .query import Query
@@ -209,7 +210,7 @@ def matching(
         refined = found.refined
         yield 0.8, "fitting to the lines"
         if found.starts:
-            judge = _Judge(fitter, region, found, contours, options)
+            judge = _Judge(region, contours, Guides(fitter, found.chains, found.alignments), options)
             fits = judge.weighed(
                 fitter.fit(
                     np.array([u for u, _ in found.starts]),
@@ -226,7 +227,7 @@ def matching(
     chosen: list[RegionMatch] = []
     for fit, measured in kept:
         if judge and len(chosen) < MOST_SETTLED and measured.similarity >= shown:
-            fit = settled(fitter, fit, judge.found.chains, judge.found.alignments, judge.similarity)
+            fit = settled(fitter, fit, judge.guides, judge.similarity)
         chosen.append(RegionMatch(drawing, fit, measured, node_support(fitter, support(fit))))
     return Matches(chosen, shown, refined, nodes, region.size)
 
@@ -235,33 +236,28 @@ def matching(
 class _Judge:
     """What fits to lines are worth, with the chains and alignments that were found."""
 
-    fitter: Fitter
     region: Query
-    found: Candidates
     contours: Contours
+    guides: Guides
     options: RegionOptions
-
-    @property
-    def most(self) -> float:
-        """What the chains of an identical copy would be worth."""
-        return float(self.found.chains.most.sum(1).mean())
 
     def corners(self, unknowns: Complex, mirrored: NDArray[np.bool_]) -> Floats:
         """Evidence of the chains that agree with functions, (h,) from 0 to 1."""
-        chained, _ = agreement(self.fitter, unknowns, mirrored, self.found.chains, self.found.alignments)
-        return corners_met(chained, self.most)
+        chained, _ = self.guides.agreement(unknowns, mirrored)
+        return corners_met(chained, self.guides.most)
 
     def weighed(self, fits: list[Fit], again: bool) -> list[tuple[Fit, Evidence]]:
         """Fits with their evidence; `again`: chains are retraced along those that have little."""
-        unknowns, mirrored = np.array([f.function.unknowns for f in fits]), [f.function.mirrored for f in fits]
-        chained, along = agreement(self.fitter, unknowns, np.array(mirrored), self.found.chains, self.found.alignments)
+        guides = self.guides
+        unknowns = np.array([f.function.unknowns for f in fits])
+        chained, along = guides.agreement(unknowns, np.array([f.function.mirrored for f in fits]))
         if again:
-            weak = wanting(self.fitter, fits, corners_met(chained, self.most))
-            found = retraced(self.contours, self.region, self.fitter, [fits[i] for i in weak], self.options.mirrored)
+            weak = wanting(guides.fitter, fits, corners_met(chained, guides.most))
+            found = retraced(self.contours, self.region, guides.fitter, [fits[i] for i in weak], self.options.mirrored)
             chained[weak] = np.maximum(chained[weak], found)
         tolerance = self.options.joint_tolerance
         return [
-            (fit, evidence(self.fitter, self.region, fit, (float(c), self.most), float(a), tolerance))
+            (fit, evidence(guides.fitter, self.region, fit, (float(c), guides.most), float(a), tolerance))
             for fit, c, a in zip(fits, chained, along, strict=True)
         ]
 

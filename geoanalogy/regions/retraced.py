@@ -11,8 +11,9 @@ import numpy as np
 from ..geometry.contours import Contours, Floats, Indices
 from .chains import LEADING, LEAST_LENGTH, MOST_SOURCES, chain
 from .courses import lengths
-from .evidence import agreement, support
+from .evidence import support
 from .fitting import PLACE, Fit, Fitter
+from .guides import Guides
 from .query import Query, Run
 
 #: Mean evidence at the samples from which on a fit is worth being retraced.
@@ -61,7 +62,7 @@ def retraced(contours: Contours, query: Query, fitter: Fitter, fits: list[Fit], 
     Returns
     -------
     (n,) float
-        As `evidence.agreement` has it; 0 for fits that are supported too little.
+        As `Guides.agreement` has it; 0 for fits that are supported too little.
     """
     out = np.zeros(len(fits))
     length = lengths(contours, query.runs[:MOST_SOURCES])
@@ -69,12 +70,12 @@ def retraced(contours: Contours, query: Query, fitter: Fitter, fits: list[Fit], 
     which = [i for i, fit in enumerate(fits) if support(fit).mean() >= LEAST_SUPPORT]
     for begin in range(0, len(which), LEADING):
         some = [fits[i] for i in which[begin : begin + LEADING]]
-        unknowns = np.array([np.concatenate([f.function.position, f.function.factor]) for f in some])
+        unknowns = np.array([f.function.unknowns for f in some])
         flipped = np.array([f.function.mirrored for f in some])
         for k, source in enumerate(sources):
             parts = [part for part in (counterpart(fit, fitter, k) for fit in some) if part is not None]
             chains = chain(contours, [source], parts, mirrored)
-            out[which[begin : begin + LEADING]] += agreement(fitter, unknowns, flipped, chains, [])[0]
+            out[which[begin : begin + LEADING]] += Guides(fitter, chains, []).agreement(unknowns, flipped)[0]
     return out
 
 
