@@ -9,9 +9,8 @@ misses another one has. So the best of them are fitted once more, with counterpa
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..geometry.contours import Complex, Floats
+from ..geometry.contours import Complex, Floats, Indices
 from .fitting import Fit, Fitter
 from .guides import Guides
 
@@ -27,31 +26,30 @@ SHARPNESS = 40.0
 LEAST_ALIKE = 1e-9
 
 
-def settled(
-    fitter: Fitter,
-    fit: Fit,
-    guides: Guides,
-    similarity: Callable[[list[Fit]], Floats],
-) -> Fit:
-    """The average of a fit and of those nearby that other chains and alignments lead to.
+def settled(fitter: Fitter, fits: list[Fit], guides: Guides, similarity: Callable[[list[Fit]], Floats]) -> list[Fit]:
+    """The averages of fits and of those nearby that other chains and alignments lead to.
 
     Parameters
     ----------
     fitter : Fitter
-    fit : Fit
+    fits : list of Fit
+        Of different places: all of them are fitted at once, which takes little longer than one.
     guides : Guides
     similarity : callable
         How alike the targets of fits are, (k,).
 
     Returns
     -------
-    Fit
+    list of Fit
     """
-    unknowns = _variants(fitter, fit, guides)
-    mirrored = np.full(len(unknowns), fit.function.mirrored)
-    average = averaged(unknowns, similarity(fitter.measured(unknowns, mirrored)), fitter.size)[None]
-    # what lies between lines is no evidence: the average is laid onto them
-    return fitter.measured(fitter.moved(fitter.sampling, average, mirrored[:1], ROUNDS[-1]), mirrored[:1])[0]
+    if not fits:
+        return []
+    unknowns, of = _variants(fitter, fits, guides)
+    mirrored = np.array([fit.function.mirrored for fit in fits])
+    alike = similarity(fitter.measured(unknowns, mirrored[of]))
+    average = np.array([averaged(unknowns[of == k], alike[of == k], fitter.size) for k in range(len(fits))])
+    # what lies between lines is no evidence: the averages are laid onto them
+    return fitter.measured(fitter.moved(fitter.sampling, average, mirrored, ROUNDS[-1]), mirrored)
 
 
 def averaged(unknowns: Complex, alike: Floats, size: float) -> Complex:
@@ -77,14 +75,20 @@ def averaged(unknowns: Complex, alike: Floats, size: float) -> Complex:
     return np.asarray(weight @ unknowns / weight.sum(), dtype=np.complex128)
 
 
-def _variants(fitter: Fitter, fit: Fit, guides: Guides) -> Complex:
-    """The unknowns of a fit, of the same with its counterparts continued, and of what agrees with it, (k, 2m)."""
-    own = fit.function.unknowns
-    share = guides.agreeing(own[None], np.array([fit.function.mirrored]))[0]
-    best = np.argsort(-share * guides.worth, kind="stable")[:MOST]
-    near = [guides.every[k] for k in best if share[k] > LEAST_AGREEING]
-    unknowns = np.array([own, *(fitter.start(c.source, c.target, np.ones(len(c.source)), START) for c in near)])
-    mirrored: NDArray[np.bool_] = np.full(len(unknowns), fit.function.mirrored)
+def _variants(fitter: Fitter, fits: list[Fit], guides: Guides) -> tuple[Complex, Indices]:
+    """The unknowns of fits, the same with their counterparts continued, and of what agrees with them, (k, 2m).
+
+    And of which fit each is; the fits' own come first.
+    """
+    own = np.array([fit.function.unknowns for fit in fits])
+    mirrored = np.array([fit.function.mirrored for fit in fits])
+    share = guides.agreeing(own, mirrored)
+    best = np.argsort(-share * guides.worth, axis=1, kind="stable")[:, :MOST]
+    near = [(k, guides.every[g]) for k, row in enumerate(best) for g in row if share[k, g] > LEAST_AGREEING]
+    of = np.array([*range(len(fits)), *(k for k, _ in near)])
+    led = [fitter.start(g.source, g.target, np.ones(len(g.source)), START) for _, g in near]
+    unknowns = np.array([*own, *led])
     for number, stiffness in enumerate(ROUNDS):
-        unknowns = fitter.moved(fitter.sampling, unknowns, mirrored, stiffness, growing=number < len(ROUNDS) - 1)
-    return np.concatenate([own[None], unknowns])
+        growing = number < len(ROUNDS) - 1
+        unknowns = fitter.moved(fitter.sampling, unknowns, mirrored[of], stiffness, growing)
+    return np.concatenate([own, unknowns]), np.concatenate([np.arange(len(fits)), of])

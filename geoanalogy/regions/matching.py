@@ -224,12 +224,15 @@ def matching(
     fits.sort(key=lambda f: -f[1].similarity)
     kept = list(_separate(fits, fitter, options.branches))[: options.most]
     shown = least_shown(np.array([e.similarity for _, e in kept]), options.threshold, options.contrast)
-    chosen: list[RegionMatch] = []
-    for fit, measured in kept:
-        if judge and len(chosen) < MOST_SETTLED and measured.similarity >= shown:
-            fit = settled(fitter, fit, judge.guides, judge.similarity)
-        chosen.append(RegionMatch(drawing, fit, measured, node_support(fitter, support(fit))))
-    return Matches(chosen, shown, refined, nodes, region.size)
+    chosen = [fit for fit, _ in kept]
+    if judge:
+        count = sum(measured.similarity >= shown for _, measured in kept[:MOST_SETTLED])
+        chosen[:count] = settled(fitter, chosen[:count], judge.guides, judge.similarity)
+    every = [
+        RegionMatch(drawing, fit, measured, node_support(fitter, support(fit)))
+        for fit, (_, measured) in zip(chosen, kept, strict=True)
+    ]
+    return Matches(every, shown, refined, nodes, region.size)
 
 
 @dataclass(frozen=True)
