@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..geometry.contours import Complex, Contours, Floats
 from .growing import grown
+from .least_squares import Blended, solved
 from .query import Query
 from .samples import Samples, Sampling
 from .target import Target
@@ -95,26 +96,25 @@ class Fitter:
         self, source: Complex, image: Complex, weight: Floats, stiffness: tuple[float, float] = (0.3, 0.3)
     ) -> Complex:
         """Unknowns (2m,) of the smoothest function through given correspondences (images conjugated where mirrored)."""
-        rows = self.nodes.rows(source)
-        return self.solve(rows, image[None], weight[None], stiffness)[0]
+        return self.solve(Blended(self.nodes, source), image[None], weight[None], stiffness)[0]
 
     def through(self, node: NDArray[np.intp], image: Complex, factor: Complex, weight: Floats) -> Complex:
         """Unknowns (2m,) of the smoothest function near given similarities at some of the nodes."""
         m = len(self.nodes.at)
-        rows = np.zeros((2 * len(node), 2 * m), complex)
-        at = np.arange(len(node))
-        rows[at, node] = 1.0
-        rows[at + len(node), m + node] = self.nodes.spacing
-        goal = np.concatenate([image, factor * self.nodes.spacing])
-        return self.solve(rows, goal[None], np.concatenate([weight, 0.5 * weight])[None], (0.1, 0.1))[0]
+        at = np.concatenate([node, m + node])
+        share = np.concatenate([weight, 0.5 * weight * self.nodes.spacing**2]) / max(1.5 * weight.sum(), 1e-12)
+        left, right = np.zeros((2 * m, 2 * m), complex), np.zeros(2 * m, complex)
+        np.add.at(left, (at, at), share)
+        np.add.at(right, at, share * np.concatenate([image, factor]))
+        return solved(left + self._smooth(0.1, 0.1), right)
 
-    def solve(self, rows: Complex, image: Complex, weight: Floats, stiffness: tuple[float, float]) -> Complex:
-        """Weighted least squares with smoothness, for several candidates: (h, s) images and weights to (h, 2m)."""
-        share = weight / np.maximum(weight.sum(1, keepdims=True), 1e-12)
-        left = (rows.conj().T[None] * share[:, None, :]) @ rows
-        left += stiffness[0] * self.strain + stiffness[1] * self.bend + 1e-9 * np.eye(rows.shape[1])
-        right = rows.conj().T[None] @ (share * image)[:, :, None]
-        return np.linalg.solve(left, right)[:, :, 0]
+    def solve(self, source: Blended, image: Complex, weight: Floats, stiffness: tuple[float, float]) -> Complex:
+        """Weighted least squares with smoothness, for several candidates: (h, k) images and weights to (h, 2m)."""
+        return source.solve(image, weight, self._smooth(*stiffness))
+
+    def _smooth(self, strain: float, bend: float) -> Complex:
+        """What keeps functions smooth, (2m, 2m), and normal equations solvable."""
+        return strain * self.strain + bend * self.bend + 1e-9 * np.eye(len(self.strain))
 
     def fit(
         self,
@@ -160,7 +160,7 @@ class Fitter:
         at, image, weight, _, _ = self.counterparts(sampling, unknowns, mirrored, FITTING)
         if growing:
             image, weight = grown(sampling, self.target, unknowns, mirrored, (at, image, weight))
-        return self.solve(sampling.rows, image, weight + 1e-6, stiffness)
+        return self.solve(sampling.blended, image, weight + 1e-6, stiffness)
 
     def measured(self, unknowns: Complex, mirrored: NDArray[np.bool_]) -> list[Fit]:
         """Functions as fits: with counterparts that say what they are worth."""

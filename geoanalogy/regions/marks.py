@@ -16,6 +16,7 @@ from ..geometry.contours import Complex, Contours, Floats
 from .courses import Course, lengths
 from .fitting import Fit, Fitter
 from .groups import GAPS, groups
+from .least_squares import Blended
 from .options import RegionOptions
 from .query import LEAST_MARKS, Query, Run
 from .transformation import TransformationFunction
@@ -200,7 +201,8 @@ def _drawn(image: Complex, target: Complex, seen: Floats) -> tuple[Complex, Floa
 def _bent(fitter: Fitter, source: Complex, target: Complex, a: complex, b: complex, flip: bool) -> Marked:
     """A similarity bent until the marks lie on each other."""
     y = np.conj(target) if flip else target
-    rows = fitter.nodes.rows(source)
+    blended = Blended(fitter.nodes, source)
+    rows = blended.rows
     m = len(fitter.nodes.at)
     unknowns: Complex = np.concatenate([a * fitter.nodes.at + b, np.full(m, a)])
     for k, seen in enumerate(FINE):
@@ -208,7 +210,7 @@ def _bent(fitter: Fitter, source: Complex, target: Complex, a: complex, b: compl
         stiffness = tuple(s ** (1 - part) * t**part for s, t in zip(STIFF, SOFT, strict=True))
         unit = fitter.size * float(np.abs(unknowns[m:]).mean())
         goal, weight = _drawn((rows @ unknowns)[None], y, np.array([seen * unit]))
-        unknowns = fitter.solve(rows, goal, weight + 1e-6, (stiffness[0], stiffness[1]))[0]
+        unknowns = fitter.solve(blended, goal, weight + 1e-6, (stiffness[0], stiffness[1]))[0]
     function = TransformationFunction(fitter.nodes, unknowns[:m], unknowns[m:], flip)
     unit = fitter.size * float(np.abs(unknowns[m:]).mean())
     image = rows @ unknowns

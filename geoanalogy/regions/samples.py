@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from ..geometry.contours import Complex, Contours, Floats
 from .courses import Course, lengths
+from .least_squares import Blended
 from .query import Query
 from .transformation import Nodes
 
@@ -78,20 +79,27 @@ class Sampling:
     Attributes
     ----------
     samples : Samples
-    rows, ahead : (s, 2m) complex
-        The linear maps from the unknowns of a function to the images of the samples, and of points just ahead of them.
+    blended : Blended
+        The samples as functions take them along.
+    ahead : (s, 2m) complex
+        The linear map from the unknowns of a function to the images of points just ahead of the samples.
     band : int
         Candidate counterparts of a sample: so many to each side of the nearest point of a line.
     """
 
     samples: Samples
-    rows: Complex
+    blended: Blended
     ahead: Complex
     band: int
+
+    @property
+    def rows(self) -> Complex:
+        """The linear map (s, 2m) from the unknowns of a function to the images of the samples."""
+        return self.blended.rows
 
     @classmethod
     def of(cls, contours: Contours, query: Query, nodes: Nodes, coarse: int) -> "Sampling":
         """The sampling by every `coarse`-th of SAMPLES, whose counterparts are looked for about as far."""
         samples = Samples.of(contours, query, SAMPLES // coarse)
         ahead = samples.points + 1e-3 * query.size * np.exp(1j * samples.heading)
-        return cls(samples, nodes.rows(samples.points), nodes.rows(ahead), -(-BAND // coarse))
+        return cls(samples, Blended(nodes, samples.points), nodes.rows(ahead), -(-BAND // coarse))
