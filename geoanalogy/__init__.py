@@ -19,9 +19,10 @@ from .operations.tree import OperationsTree
 from .placements.examples import Example
 from .placements.model import Placement, PlacementModel, learn_placement
 from .placements.options import PlacementOptions
+from .poses.model import PoseModel
 from .poses.options import PoseOptions
 from .poses.pose import Pose
-from .poses.propagate import PoseModel, learn_pose, propagate_pose
+from .poses.propagate import learn_pose, propagate_pose
 from .poses.results import PoseResults, PropagatedPose
 from .regions.matching import Matches, RegionMatch, match_regions
 from .regions.options import RegionOptions

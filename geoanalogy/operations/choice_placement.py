@@ -6,7 +6,7 @@ from typing import Any
 
 from ..errors import InputError
 from ..geometry.polygon import Polygon
-from ..poses.propagate import PoseModel
+from ..poses.model import PoseModel
 from ..poses.selection import PoseChoice
 from ..progress import Stepper
 from .element import Element

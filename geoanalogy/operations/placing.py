@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..geometry.surface import GROUND, Surface
+from ..poses.model import PoseModel
 from ..poses.pose import Pose
-from ..poses.propagate import PoseModel
 from ..poses.results import PropagatedPose
 from ..progress import Stepper
 from ..tolerances import SAME_POLYGON

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.polygon import Polygon
-from ..poses.propagate import PoseModel
+from ..poses.model import PoseModel
 from ..progress import Stepper
 from ..tolerances import TOUCHING_SHARE
 from .element import Element

@@ -13,10 +13,11 @@ from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..progress import Progress, Stepper, run, within
 from .arrangement import arrangement_of
+from .model import PoseModel
 from .offset_path import Alignment, OffsetPath, Stretch, align, offset_paths
 from .options import PoseOptions
 from .pose import Pose
-from .propagate import PoseModel, learn_pose
+from .propagate import learn_pose
 from .results import PropagatedPose
 from .validation import Validation
 

@@ -13,8 +13,8 @@ from ..geometry.scene import Scene
 from ..progress import Progress, Stepper, run
 from .arrangement import Arrangement, arrangement_of
 from .candidates import accumulate_in_plane
+from .model import PoseModel
 from .pose import Pose
-from .propagate import PoseModel
 from .results import PoseResults, PropagatedPose
 from .selection import place_generator
 from .validation import Validation

@@ -9,7 +9,7 @@ from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..progress import Progress, Stepper, run, within
-from .propagate import PoseModel
+from .model import PoseModel
 from .results import PoseResults, PropagatedPose
 
 

@@ -13,7 +13,7 @@ from strategies import Similarity
 import geoanalogy as ga
 from geoanalogy import Polygon, Pose, PoseOptions, Scene, learn_pose, propagate_pose
 from geoanalogy.poses.arrangement import arrangement_of
-from geoanalogy.poses.propagate import SCALED_FACTOR, PoseModel
+from geoanalogy.poses.model import SCALED_FACTOR, PoseModel
 from geoanalogy.poses.scatter import ScatterModel, ScatterOptions
 from geoanalogy.poses.validation import Validation
 

@@ -18,7 +18,7 @@ from strategies import Similarity
 
 import geoanalogy as ga
 from geoanalogy import Polygon, Pose, PoseOptions, PropagatedPose, Scene, propagate_pose
-from geoanalogy.poses.propagate import TOGETHER
+from geoanalogy.poses.model import TOGETHER
 from geoanalogy.poses.results import PoseResults
 
 #: Shapes that are no image of themselves, and a place inside.

@@ -15,7 +15,7 @@ from ...operations.scatter_placement import ScatterPlacement
 from ...placements.model import PlacementModel
 from ...poses.arrangement import arrangement_of
 from ...poses.explanation import explain as explained_by
-from ...poses.propagate import PoseModel
+from ...poses.model import PoseModel
 from .. import names
 from .refresh import proposed_by
 from .sites import site_under, sites_before

@@ -23,9 +23,10 @@ from ...poses.arrays import ArrayModel, ArrayOptions, learn_array
 from ...poses.group_transfer import GroupObject, GroupTransfer
 from ...poses.local_coordinates import BoundarySystem
 from ...poses.local_mapping import TransferOptions
+from ...poses.model import PoseModel
 from ...poses.options import PoseOptions
 from ...poses.pose import Pose, footprint_ring
-from ...poses.propagate import PoseModel, learn_pose
+from ...poses.propagate import learn_pose
 from ...poses.scatter import ScatterModel
 from ...progress import Stepper
 from ...tolerances import CONTAINED_SHARE

@@ -22,8 +22,8 @@ from ...operations.pose_placement import PosePlacement
 from ...operations.scatter_placement import ScatterPlacement
 from ...poses.arrays import ArrayOptions
 from ...poses.local_mapping import TransferOptions
+from ...poses.model import PoseModel
 from ...poses.options import PoseOptions
-from ...poses.propagate import PoseModel
 from ...poses.scatter import ScatterModel, ScatterOptions
 from ...progress import Stepper, within
 from .. import names
