@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..geometry.contours import Complex, Contours, Floats
 from .growing import grown
-from .least_squares import Blended, solved
+from .least_squares import Blended
 from .query import Query
 from .samples import Samples, Sampling
 from .target import Target
@@ -106,7 +106,7 @@ class Fitter:
         left, right = np.zeros((2 * m, 2 * m), complex), np.zeros(2 * m, complex)
         np.add.at(left, (at, at), share)
         np.add.at(right, at, share * np.concatenate([image, factor]))
-        return solved(left + self._smooth(0.1, 0.1), right)
+        return np.linalg.solve(left + self._smooth(0.1, 0.1), right)
 
     def solve(self, source: Blended, image: Complex, weight: Floats, stiffness: tuple[float, float]) -> Complex:
         """Weighted least squares with smoothness, for several candidates: (h, k) images and weights to (h, 2m)."""

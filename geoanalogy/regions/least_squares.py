@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
 
 from ..geometry.contours import Complex, Floats
 from .transformation import Nodes
@@ -62,35 +61,19 @@ class Blended:
         """
         share = weight / np.maximum(weight.sum(1, keepdims=True), 1e-12)
         right = (share * goal) @ self.rows.conj()
-        return np.array([solved(self._squares(s) + smooth, r) for s, r in zip(share, right, strict=True)])
+        return np.array([np.linalg.solve(self._squares(s) + smooth, r) for s, r in zip(share, right, strict=True)])
 
     def _squares(self, share: Floats) -> Complex:
-        """`rows`, conjugated and transposed, times weights (k,), times `rows`: of that the upper triangle."""
+        """`rows`, conjugated and transposed, times weights (k,), times `rows`, (2m, 2m)."""
         at = self.nodes.at - self.nodes.at.mean()
         m = len(at)
         moments = (self._weights.T * (self._powers * share)).reshape(4 * m, -1) @ self._weights
         count, x, y, square = moments.reshape(4, m, m)
         first = x + 1j * y
-        out = np.zeros((2 * m, 2 * m), dtype=np.complex128)
+        out = np.empty((2 * m, 2 * m), dtype=np.complex128)
         out[:m, :m] = count
         out[:m, m:] = first - count * at
-        # conj(z - q) (z - r) = |z|² - conj(q) z - r conj(z - q), the last of which is the block above, conjugated
-        out[m:, m:] = square - np.conj(at)[:, None] * first - at * np.conj(out[:m, m:].T)
+        out[m:, :m] = np.conj(out[:m, m:].T)
+        # conj(z - q) (z - r) = |z|² - conj(q) z - r conj(z - q)
+        out[m:, m:] = square - np.conj(at)[:, None] * first - at * out[m:, :m]
         return out
-
-
-def solved(left: Complex, right: Complex) -> Complex:
-    """The solution of a system.
-
-    Parameters
-    ----------
-    left : (n, n) complex
-        Hermitian and positive definite; only the upper triangle is read.
-    right : (n,) complex
-
-    Returns
-    -------
-    (n,) complex
-    """
-    factors = cho_factor(left, overwrite_a=True, check_finite=False)
-    return np.asarray(cho_solve(factors, right, check_finite=False), dtype=np.complex128)
