@@ -19,7 +19,7 @@ from pathlib import Path
 # Processor time is that of one processor: threads of linear algebra wait busily. Read when numpy is imported.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-from .measuring import machine  # noqa: E402
+from .measuring import machine
 
 FOLDER = Path(__file__).resolve().parent
 REPORT = FOLDER.parent / "docs" / "benchmarks.md"
