@@ -129,7 +129,7 @@ def regular(lesson: Lesson, arrangement: Arrangement, present: Array) -> tuple[A
         return None
     box = arrangement.parent_box
     along = [present[:, [axis, axis + 2]] for axis in (0, 1)]
-    if max(len(rows_of(extents)) for extents in along) == len(present) == min(len(rows_of(e)) for e in along):
+    if all(len(rows_of(extents)) == len(present) for extents in along):
         return None  # each in a row and a column of its own
     x, y = (lattice(along[axis], box[axis], box[axis + 2]) for axis in (0, 1))
     if x is None or y is None or not all(is_silent(lesson, arrangement, present, axis) for axis in (0, 1)):

@@ -87,11 +87,11 @@ def refined(
     order = np.lexsort((-worth, np.round(deformed, ROUNDED), worth < top[rows] - EQUALLY_ALIKE, rows))
     row, first = np.unique(rows[order], return_index=True)
     boxes[row], similar[row] = options[order[first]], similarities[order[first]]
-    unsure = np.flatnonzero(similar[:, p].max(axis=1) < SURE)
-    if len(unsure) and not lesson.habits.exact:
-        unsure = unsure[~copied(lesson, arrangement, boxes[unsure])]
-        boxes[unsure] = middle(boxes[unsure], seen.boxes, seen.certainty)
     if not lesson.habits.exact:
+        unsure = np.flatnonzero(similar[:, p].max(axis=1) < SURE)
+        if len(unsure):
+            unsure = unsure[~copied(lesson, arrangement, boxes[unsure])]
+            boxes[unsure] = middle(boxes[unsure], seen.boxes, seen.certainty)
         boxes = snapped(lesson, arrangement, boxes)
     else:
         # What was found by an exact rule is where the rule says: no other way of keeping relations is better.

@@ -195,7 +195,8 @@ def survey(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
             return Survey(made.boxes, similar, similar, made.certainty, *nothing, 0 if len(made.boxes) else None)
     even = regular(lesson, arrangement, present)
     if even is not None:
-        boxes, certainty = (part[_unlike_shown(even[0], shown)] for part in even)
+        new = _unlike_shown(even[0], shown)
+        boxes, certainty = even[0][new], even[1][new]
         similar, contrast, *_ = look(lesson, arrangement, boxes, present)
         return Survey(boxes, similar, contrast, certainty, np.zeros((0, 4)), np.zeros(0, dtype=np.intp))
     return search(lesson, arrangement, present, shown)[0]

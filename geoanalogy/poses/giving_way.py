@@ -84,11 +84,7 @@ def _uphill(batch: Batch, importances: Sequence[Importance], poses: Refined, sta
     reach = FARTHEST * batch.unit[poses.which]
     for _ in range(STEPS):
         before = poses.value
-        c, s = np.cos(poses.angle), np.sin(poses.angle)
-        ahead, across = reach[:, :1] * np.column_stack([c, s]), reach[:, 1:2] * np.column_stack([-s, c])
-        still = np.zeros_like(ahead)
-        position = poses.position[:, None] + np.stack([ahead, -ahead, across, -across, still, still], axis=1)
-        angle = poses.angle[:, None] + reach[:, 2:] * np.array([0, 0, 0, 0, 1, -1])
+        position, angle = poses.one_step_away(reach)
         offered = batch.total(rows, position.reshape(-1, 2), angle.ravel()).reshape(angle.shape)
         better = offered > before[:, None]
         for k, mine in poses.by_importance():

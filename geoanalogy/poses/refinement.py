@@ -193,11 +193,7 @@ def _climb(batch: Batch, poses: Refined, rivals: Rivals) -> Refined:
     reach = FARTHEST_CLIMB * batch.unit[best.which]
     for _ in range(CLIMBS):
         before = best.value
-        c, s = np.cos(best.angle), np.sin(best.angle)
-        ahead, across = reach[:, :1] * np.column_stack([c, s]), reach[:, 1:2] * np.column_stack([-s, c])
-        still = np.zeros_like(ahead)
-        position = best.position[:, None] + np.stack([ahead, -ahead, across, -across, still, still], axis=1)
-        angle = best.angle[:, None] + reach[:, 2:] * np.array([0, 0, 0, 0, 1, -1])
+        position, angle = best.one_step_away(reach)
         offered = batch.total(rows, position.reshape(-1, 2), angle.ravel()).reshape(angle.shape)
         way = np.argmax(offered, axis=1)
         best = best.bettered(position[every, way], angle[every, way], offered[every, way])

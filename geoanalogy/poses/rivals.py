@@ -88,6 +88,25 @@ class Refined:
             np.maximum(self.value, value),
         )
 
+    def one_step_away(self, reach: Array) -> tuple[Array, Array]:
+        """The six poses around each: a step ahead and back, to both sides, and turned both ways.
+
+        Parameters
+        ----------
+        reach : ndarray of shape (k, 3)
+            Length of the step ahead, of that to the side, and the turn.
+
+        Returns
+        -------
+        position : ndarray of shape (k, 6, 2)
+        angle : ndarray of shape (k, 6)
+        """
+        c, s = np.cos(self.angle), np.sin(self.angle)
+        ahead, across = reach[:, :1] * np.column_stack([c, s]), reach[:, 1:2] * np.column_stack([-s, c])
+        still = np.zeros_like(ahead)
+        position = self.position[:, None] + np.stack([ahead, -ahead, across, -across, still, still], axis=1)
+        return position, self.angle[:, None] + reach[:, 2:] * np.array([0, 0, 0, 0, 1, -1])
+
 
 class Rivals:
     """The candidates of several arrangements, in every sense and at every scale.

@@ -126,6 +126,23 @@ def _divided(z: Complex, closed: bool, longest: float) -> Complex:
     return z[:-1] if closed else z
 
 
+def compared(contours: Contours, runs: list[Run]) -> list[Run]:
+    """The stretches of a query that are compared with the drawing: the longest, of about its length.
+
+    Parameters
+    ----------
+    contours : Contours
+    runs : list of Run
+        Longest first.
+
+    Returns
+    -------
+    list of Run
+    """
+    length = lengths(contours, runs[:MOST_SOURCES])
+    return [run for run, own in zip(runs, length, strict=False) if own >= LEAST_LENGTH * length[0]]
+
+
 class _Lines:
     """Stretches of line and their corners, each found when it is first asked for.
 
@@ -164,8 +181,7 @@ def chain(contours: Contours, sources: list[Run], targets: list[Run], mirrored: 
     -------
     Chains
     """
-    length = lengths(contours, sources[:MOST_SOURCES])
-    sources = [run for run, own in zip(sources, length, strict=False) if own >= LEAST_LENGTH * length[0]]
+    sources = compared(contours, sources)
     own_lines, lines = _Lines(contours, sources), _Lines(contours, targets[:MOST_TARGETS])
     found: list[_Found] = []
     most = np.zeros((len(GRADES), len(sources)))

@@ -183,6 +183,12 @@ class Fitter:
         along = np.cos(self.target.heading[near] - way) ** 2
         return np.asarray((np.exp(-0.5 * (gap / (FAR * unit)) ** 2) * (0.5 + 0.5 * along)).mean(1), dtype=np.float64)
 
+    def places(self, unknowns: Complex, mirrored: NDArray[np.bool_]) -> tuple[Complex, Floats]:
+        """Where functions lead: the centres of the images, (h,), and their extents, (h,)."""
+        m = len(self.nodes.at)
+        centre = unknowns[:, :m].mean(1)
+        return np.where(mirrored, np.conj(centre), centre), self.size * np.abs(unknowns[:, m:]).mean(1)
+
     def apart(self, unknowns: Complex, mirrored: NDArray[np.bool_], each: int, most: int) -> NDArray[np.intp]:
         """Indices of about `most` candidates, given best first: of every place `each`, then the best of the rest.
 
@@ -190,10 +196,7 @@ class Fitter:
         place gets its first before any gets its second; where there are more places than `most`, up to half as many
         more candidates are taken.
         """
-        m = len(self.nodes.at)
-        centre = unknowns[:, :m].mean(1)
-        centre = np.where(mirrored, np.conj(centre), centre)
-        extent = self.size * np.abs(unknowns[:, m:]).mean(1)
+        centre, extent = self.places(unknowns, mirrored)
         turn = np.full(len(unknowns), each)
         kept: list[int] = []
         for i in range(len(unknowns)):

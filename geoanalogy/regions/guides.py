@@ -32,7 +32,7 @@ class Guides:
     chains: Chains
     alignments: list[Alignment]
 
-    @property
+    @cached_property
     def every(self) -> list[Chain | Alignment]:
         """The chains, then the alignments."""
         return [*self.chains.found, *self.alignments]
@@ -61,12 +61,13 @@ class Guides:
         return self.fitter.nodes.rows(source).T, goal, np.array([g.mirrored for g in self.every])
 
     @cached_property
-    def _groups(self) -> tuple[Indices, Indices]:
-        """Grade and stretch of each chain as one number, and the order by it."""
+    def _groups(self) -> tuple[Indices, Indices, Indices]:
+        """The order of chains by grade and stretch as one number, which numbers there are, and where each begins."""
         grade = np.array([c.grade for c in self.chains.found], dtype=np.intp)
         run = np.array([c.run for c in self.chains.found], dtype=np.intp)
         group = grade * self.chains.most.shape[1] + run
-        return group, np.argsort(group, kind="stable")
+        order = np.argsort(group, kind="stable")
+        return order, *np.unique(group[order], return_index=True)
 
     def agreeing(self, unknowns: Complex, mirrored: NDArray[np.bool_]) -> Floats:
         """How far functions agree with each guide.
@@ -108,8 +109,7 @@ class Guides:
         count = len(self.chains.found)
         best = np.zeros((len(unknowns), self.chains.most.size))
         if count:
-            group, order = self._groups
-            present, begin = np.unique(group[order], return_index=True)
+            order, present, begin = self._groups
             best[:, present] = np.maximum(np.maximum.reduceat(scores[:, order], begin, axis=1), 0.0)
         chained = best.reshape(len(unknowns), *self.chains.most.shape)
         return chained.sum(2).mean(1), scores[:, count:].max(1, initial=0.0)

@@ -31,7 +31,7 @@ class Blended:
     @cached_property
     def rows(self) -> Complex:
         """The linear map (k, 2m) from a function's unknowns (positions, then factors) to the images of the points."""
-        return self.nodes.rows(self.points)
+        return self.nodes.rows(self.points, self._weights)
 
     @cached_property
     def _weights(self) -> Floats:

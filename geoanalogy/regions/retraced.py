@@ -9,8 +9,7 @@ the query, the corners of that part alone can be compared with those of the stre
 import numpy as np
 
 from ..geometry.contours import Contours, Floats, Indices
-from .chains import LEADING, LEAST_LENGTH, MOST_SOURCES, chain
-from .courses import lengths
+from .chains import LEADING, chain, compared
 from .evidence import support
 from .fitting import PLACE, Fit, Fitter
 from .guides import Guides
@@ -40,9 +39,8 @@ def wanting(fitter: Fitter, fits: list[Fit], met: Floats) -> Indices:
     -------
     (k,) int
     """
-    middle = [f.function.position.mean() for f in fits]
-    centre = np.array([np.conj(z) if f.function.mirrored else z for z, f in zip(middle, fits, strict=True)])
-    extent = fitter.size * np.array([np.abs(f.function.factor).mean() for f in fits])
+    unknowns, flipped = (np.array([getattr(f.function, name) for f in fits]) for name in ("unknowns", "mirrored"))
+    centre, extent = fitter.places(unknowns, flipped)
     near = np.abs(centre[:, None] - centre) < PLACE * np.minimum(extent[:, None], extent)
     return np.flatnonzero(~(near & (met >= 1.0)).any(1))
 
@@ -65,8 +63,7 @@ def retraced(contours: Contours, query: Query, fitter: Fitter, fits: list[Fit], 
         As `Guides.agreement` has it; 0 for fits that are supported too little.
     """
     out = np.zeros(len(fits))
-    length = lengths(contours, query.runs[:MOST_SOURCES])
-    sources = [run for run, own in zip(query.runs, length, strict=False) if own >= LEAST_LENGTH * length[0]]
+    sources = compared(contours, query.runs)
     which = [i for i, fit in enumerate(fits) if support(fit).mean() >= LEAST_SUPPORT]
     for begin in range(0, len(which), LEADING):
         some = [fits[i] for i in which[begin : begin + LEADING]]

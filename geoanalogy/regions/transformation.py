@@ -70,9 +70,12 @@ class Nodes:
         weight = np.exp(square.min(1, keepdims=True) - square)
         return weight / weight.sum(1, keepdims=True)
 
-    def rows(self, z: Complex) -> Complex:
-        """The linear map (k, 2m) from a function's unknowns (positions, then factors) to the images of points."""
-        weight = self.blend(z)
+    def rows(self, z: Complex, weight: Floats | None = None) -> Complex:
+        """The linear map (k, 2m) from a function's unknowns (positions, then factors) to the images of points.
+
+        `weight` is what `blend` gives for them, where it is known.
+        """
+        weight = self.blend(z) if weight is None else weight
         return np.concatenate([weight, weight * (z[:, None] - self.at[None])], 1)
 
 
