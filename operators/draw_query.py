@@ -81,6 +81,8 @@ class GEOANALOGY_OT_draw_query(ViewDrawing, bpy.types.Operator):
         return self.begin(context, Overlay(self._sketch.shapes), "PAINT_CROSS" if self.mode == "BRUSH" else "CROSSHAIR")
 
     def modal(self, context, event):
+        if not self.is_shown(context):
+            return self.cancelled(context)
         self._area.tag_redraw()
         pressed, settings = event.value == "PRESS", context.scene.geoanalogy
         if event.type == "ESC" and pressed:

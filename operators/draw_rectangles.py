@@ -51,6 +51,8 @@ class GEOANALOGY_OT_draw_rectangles(ViewDrawing, bpy.types.Operator):
         return self.begin(context, Overlay(self._sketch.shapes), "CROSSHAIR")
 
     def modal(self, context, event):
+        if not self.is_shown(context):
+            return self.cancelled(context)
         self._area.tag_redraw()
         pressed = event.value == "PRESS"
         if event.type == "ESC" and pressed:

@@ -4,7 +4,7 @@ from collections.abc import Generator
 
 import bpy
 
-from ..geoanalogy.blender.jobs import Job
+from ..geoanalogy.blender.jobs import Job, at_work
 from ..geoanalogy.blender.tree.store import recorded_nodes, tree_of
 from ..geoanalogy.errors import InputError
 from ..geoanalogy.progress import run
@@ -97,6 +97,11 @@ class LongEdit:
         context.workspace.status_text_set(f"{self._job.text} — {round(100 * self._job.fraction)} %, Esc cancels")
         return {"RUNNING_MODAL"}
 
+    def cancel(self, context):
+        """Stop where Blender closes the window or opens another file."""
+        self._job.cancel()
+        self._end(context)
+
     def _end(self, context):
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
@@ -109,6 +114,9 @@ def needs_object_mode(cls: type, context: bpy.types.Context) -> bool:
     """Whether the scene can be edited; where not, the operator says why."""
     if context.mode != "OBJECT":
         cls.poll_message_set("Leave to Object Mode first")
+        return False
+    if at_work():
+        cls.poll_message_set("Something is being worked on: wait for it, or stop it with Esc in its window")
         return False
     return True
 

@@ -17,6 +17,7 @@ class ViewDrawing(Edit):
     def begin(self, context, overlay, cursor):
         """Follow the mouse in the view from now on, with an overlay that is shown until the end."""
         self._area = context.area
+        self._place = context.area.as_pointer()
         self._region = next(region for region in context.area.regions if region.type == "WINDOW")
         self._overlay = overlay
         context.window.cursor_modal_set(cursor)
@@ -26,9 +27,21 @@ class ViewDrawing(Edit):
     def end(self, context):
         """Leave the view as it was."""
         self._overlay.remove()
-        context.window.cursor_modal_restore()
-        context.workspace.status_text_set(None)
-        self._area.tag_redraw()
+        if context.window is not None:
+            context.window.cursor_modal_restore()
+        if context.workspace is not None:
+            context.workspace.status_text_set(None)
+        if self.is_shown(context):
+            self._area.tag_redraw()
+
+    def cancel(self, context):
+        """End where Blender closes the window or opens another file."""
+        self.end(context)
+
+    def is_shown(self, context):
+        """Whether the view is still there: its area may be closed, and another workspace may be chosen."""
+        areas = context.screen.areas if context.screen is not None else ()
+        return self._place in [area.as_pointer() for area in areas]
 
     def cancelled(self, context):
         """End without an edit."""

@@ -8,6 +8,7 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 
 from .. import names
+from ..jobs import stop_jobs
 from .node_settings import EDITED, BuildingSettings, stored_settings
 from .plain import to_property
 
@@ -135,6 +136,9 @@ class GEOANALOGY_ND_operation(BuildingSettings, bpy.types.Node):
     def init(self, context):
         self.inputs.new(names.LAYOUT_SOCKET, "Layout", use_multi_input=True)
         self.outputs.new(names.LAYOUT_SOCKET, "Layout")
+
+    def free(self):
+        stop_jobs("an operation was removed while the tree was being worked on; nothing else has changed, start again")
 
     def draw_label(self):
         return self.label or self.name
