@@ -10,12 +10,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import maximum_filter
 
 from ..relations.elements import ElementType, ranges
 from ..relations.table import Kind, Positional
 from .candidates import MAXIMA, Candidates
-from .fields import Fields
+from .fields import Fields, Grid
 from .importance import Importance
 from .kernels import wrap
 from .matching import Answers
@@ -96,97 +95,99 @@ def find_footprint_candidates(
     grid = fields.grid
     stride = max(1, math.ceil(STEP * importance.width / grid.spacing))
     importance = importance.of_strongest(STRONG)
+    tried = directions(importance)
+    if not len(tried):
+        return Candidates(np.zeros((0, 2)), np.zeros(0), np.zeros(0))
     rows, columns = np.arange(0, grid.rows, stride), np.arange(0, grid.columns, stride)
     lattice = rows[:, None] * grid.columns + columns
-    numbers = np.arange(lattice.size).reshape(lattice.shape)
-    open_cells = ~taken[lattice]
-    closed = blocked.reshape(grid.rows, grid.columns)
-    tried = directions(importance)
-    if not tried:
-        return Candidates(np.zeros((0, 2)), np.zeros(0), np.zeros(0))
-    places = []
-    for direction in tried:
-        c, s = np.cos(direction), np.sin(direction)
-        steps = grid.steps(importance.samples @ np.array([[c, s], [-s, c]]))
-        (left, low), (right, high) = steps.min(axis=0), steps.max(axis=0)
-        row, column = _fitting(low, high, stride, grid.rows), _fitting(left, right, stride, grid.columns)
-        free = open_cells[row, column]
-        if free.size:
-            free = free.copy()
-            for along, up in steps.tolist():
-                free &= ~closed[_moved(row, up, stride), _moved(column, along, stride)]
-        cells = numbers[row, column][free]
-        # Where each sample of the footprint is.
-        at = lattice.ravel()[cells] + (steps[:, 1] * grid.columns + steps[:, 0])[:, None]
-        places.append(_Places(direction, cells, at))
-    sheets = np.full((len(tried), lattice.size), -1.0, dtype=np.float32)
-    for sheet, p, total in zip(sheets, places, _accumulate(importance, fields, places), strict=True):
-        sheet[p.cells] = total
-    sheets = sheets.reshape(len(tried), *lattice.shape)
-    top = maximum_filter(sheets, size=(1, 3, 3), mode="constant", cval=-1.0)
-    best = np.flatnonzero((sheets == top) & (sheets > 0))
-    strength = sheets.ravel()[best]
-    best = best[np.argsort(-strength, kind="stable")]
+    places = _places(importance, grid, tried, (rows, columns), ~(taken | blocked)[lattice], blocked)
+    # A border all around, so that every place has neighbours.
+    sheets = np.full((len(tried), len(rows) + 2, len(columns) + 2), -1.0, dtype=np.float32)
+    inner = sheets[:, 1:-1, 1:-1]
+    inner[places.which, places.row, places.column] = _accumulate(importance, fields, places)
+    top = np.maximum(np.maximum(sheets[:, :-2], sheets[:, 1:-1]), sheets[:, 2:])
+    top = np.maximum(np.maximum(top[:, :, :-2], top[:, :, 1:-1]), top[:, :, 2:])
+    best = np.flatnonzero((inner == top) & (inner > 0))
+    found = inner.ravel()
+    best = best[np.argsort(-found[best], kind="stable")]
     # Not all from one direction.
     most = max(MAXIMA, importance.query.options.candidates)
-    rank = np.cumsum(best[:, None] // lattice.size == np.arange(len(tried)), axis=0)
-    best = best[rank[np.arange(len(best)), best // lattice.size] <= most][: 2 * most]
-    strength = sheets.ravel()[best].astype(np.float64)
-    chosen = strength >= WORTH_REFINING * strength.max(initial=0.0)
-    which, cell = np.divmod(best[chosen], lattice.size)
-    angle = np.array(tried)[which]
-    return Candidates(grid.points[lattice.ravel()[cell]], angle, strength[chosen] / importance.query.total)
-
-
-def _fitting(low: int, high: int, stride: int, size: int) -> slice:
-    """Which of every so many-th place in a line keep within its size with what reaches from `low` to `high`."""
-    return slice(max(0, math.ceil(-low / stride)), max(0, (size - 1 - high) // stride + 1))
-
-
-def _moved(places: slice, by: int, stride: int) -> slice:
-    """The grid points, some steps on, of every so many-th place in a line."""
-    return slice(places.start * stride + by, (places.stop - 1) * stride + by + 1, stride)
+    which, cell = np.divmod(best, lattice.size)
+    rank = np.cumsum(which[:, None] == np.arange(len(tried)), axis=0)
+    chosen = np.flatnonzero(rank[np.arange(len(best)), which] <= most)[: 2 * most]
+    strength = found[best[chosen]].astype(np.float64)
+    worth = strength >= WORTH_REFINING * strength.max(initial=0.0)
+    chosen, strength = chosen[worth], strength[worth]
+    return Candidates(
+        grid.points[lattice.ravel()[cell[chosen]]], tried[which[chosen]], strength / importance.query.total
+    )
 
 
 @dataclass(frozen=True)
 class _Places:
-    """The places where a footprint is tried in one direction.
+    """The places where a footprint is tried, those of one direction after those of another.
 
     Attributes
     ----------
-    direction : float
-    cells : ndarray of shape (n,), int
-        Their numbers among all places of the lattice.
+    directions : ndarray of shape (d,)
+    which : ndarray of shape (n,), int
+        The number of each place's direction, ascending.
+    row, column : ndarray of shape (n,), int
+        In the lattice.
     samples : ndarray of shape (samples, n), int
         The grid points of the footprint's samples there.
     """
 
-    direction: float
-    cells: Indices
+    directions: Array
+    which: Indices
+    row: Indices
+    column: Indices
     samples: Indices
 
 
-def _accumulate(importance: Importance, fields: Fields, places: list[_Places]) -> list[Array32]:
-    """The importance at places, with wide level sets; per direction of shape (places,)."""
-    direction = np.array([p.direction for p in places])
-    count = [len(p.cells) for p in places]
-    first = np.cumsum([0, *count])
-    total = np.zeros(first[-1], dtype=np.float32)
-    samples = np.concatenate([p.samples for p in places], axis=1)
+def _places(
+    importance: Importance,
+    grid: Grid,
+    tried: Array,
+    lattice: tuple[Indices, Indices],
+    free: NDArray[np.bool_],
+    blocked: NDArray[np.bool_],
+) -> _Places:
+    """The places of a lattice, given by its rows and columns in the grid, where no sample is outside or blocked."""
+    c, s = np.cos(tried), np.sin(tried)
+    turns = np.ascontiguousarray(np.array([[c, s], [-s, c]]).transpose(2, 0, 1))
+    steps = grid.steps(importance.samples @ turns).transpose(1, 0, 2)
+    # Of every sample and direction.
+    row, column = lattice[0] + steps[:, :, 1:], lattice[1] + steps[:, :, :1]
+    inside = ((row >= 0) & (row < grid.rows)).all(axis=0)[:, :, None]
+    inside = inside & ((column >= 0) & (column < grid.columns)).all(axis=0)[:, None]
+    which, i, j = np.nonzero(free & inside)
+    row *= grid.columns
+    count = len(importance.samples)
+    samples = row.reshape(count, -1).take(which * len(lattice[0]) + i, axis=1)
+    samples += column.reshape(count, -1).take(which * len(lattice[1]) + j, axis=1)
+    kept = np.flatnonzero(~blocked.take(samples).any(axis=0))
+    return _Places(tried, which[kept], i[kept], j[kept], samples.take(kept, axis=1))
+
+
+def _accumulate(importance: Importance, fields: Fields, places: _Places) -> Array32:
+    """The importance at places, with wide level sets; shape (places,)."""
+    total = np.zeros(len(places.which), dtype=np.float32)
+    ends = np.cumsum(np.bincount(places.which, minlength=len(places.directions))).tolist()
     for element, a in importance.answers.items():
         sets = _LevelSets.of(importance, element, a)
         heading = importance.target.elements.heading(element)
         if heading is None:
-            turned = None if element is ElementType.CORNER else np.repeat(direction, count).astype(np.float32)
-            sets.add(total, fields, samples, turned)
+            turned = None if element is ElementType.CORNER else places.directions[places.which].astype(np.float32)
+            sets.add(total, fields, places.samples, turned)
             continue
         # The directional kernel is the same everywhere, and for all samples of a pair.
         lead = a.pair_start
-        miss = direction[:, None, None] - heading[a.target[lead]] - a.turn.take(lead, axis=1)
+        miss = places.directions[:, None, None] - heading[a.target[lead]] - a.turn.take(lead, axis=1)
         kernel = np.maximum(0, 1 - np.abs(wrap(miss)) / importance.query.options.direction_width)
-        for one, start, end in zip(sets.aligned(a, kernel), first, first[1:], strict=False):
-            one.add(total[start:end], fields, samples[:, start:end])
-    return np.split(total, first[1:-1])
+        for one, start, end in zip(sets.aligned(a, kernel), [0, *ends], ends, strict=False):
+            one.add(total[start:end], fields, places.samples[:, start:end])
+    return total
 
 
 @dataclass(frozen=True)
@@ -226,14 +227,15 @@ class _LevelSets:
         for k, relation in enumerate(a.relations):
             if relation.kind is Kind.LENGTH:
                 value[k] *= importance.scale
-            period = None if relation.period is None else relation.period(importance.target.elements)[a.target]
-            if period is None or not np.isfinite(period).any():
+            period = None if relation.period is None else relation.period(importance.target.elements)
+            cyclic = None if period is None else np.isfinite(period)
+            if period is None or cyclic is None or not cyclic.any():
                 periods.append(None)
                 continue
-            cyclic = np.isfinite(period)
+            period, cyclic = period[a.target], cyclic[a.target]
             value[k, cyclic] %= period[cyclic]
             periods.append(period.astype(np.float32))
-        weight = a.weight * np.repeat(a.accuracy, a.per_pair)
+        weight = a.layout.worth
         return cls(
             element=element,
             relations=a.relations,
@@ -244,7 +246,7 @@ class _LevelSets:
             fall=(weight / (WIDTH * importance.width)).astype(np.float32),
             turn=a.turn.astype(np.float32),
             period=periods,
-            features=_features(a, np.zeros(len(a.accuracy), dtype=np.intp), np.arange(len(a.accuracy)), 1)[0],
+            features=a.layout.features,
             tolerance=importance.query.options.direction_width,
         )
 
@@ -303,9 +305,12 @@ class _LevelSets:
             part = slice(start, start + most)
             index = fields.index(self.element, self.target, samples[self.sample, part])
             met = self._met(fields, index, None if direction is None else direction[part])
+            here = total[part]
             for first, end, count in self.features:
-                pairs = met[first:end].reshape(-1, count, met.shape[1]).sum(axis=1)
-                total[part] += pairs.max(axis=0)
+                pairs = met[first:end]
+                if count > 1:
+                    pairs = np.add.reduce(pairs.reshape(-1, count, len(here)), axis=1)
+                here += pairs[0] if len(pairs) == 1 else np.maximum.reduce(pairs, axis=0)
 
     def _met(self, fields: Fields, index: Indices, direction: Array32 | None) -> Array32:
         """What every entry is worth at places; shape (e, n)."""
@@ -350,7 +355,7 @@ def _features(a: Answers, which: Indices, pair: Indices, count: int) -> list[lis
     return features
 
 
-def directions(importance: Importance) -> list[float]:
+def directions(importance: Importance) -> Array:
     """The directions a footprint may take: along the features that answer, as the example is along its own.
 
     Parameters
@@ -359,20 +364,25 @@ def directions(importance: Importance) -> list[float]:
 
     Returns
     -------
-    list of float
+    ndarray of shape (d,)
         Radians; strongest first, at least most of the directional kernel's width apart.
     """
     a = importance.answers.get(ElementType.SEGMENT)
     if a is None:
         base = importance.target.parent.main_orientation - importance.query.arrangement.parent.main_orientation
         quarters = base + importance.query.pose.angle + np.arange(4) * np.pi / 2
-        return [float(q) for q in quarters[importance.query.is_upright(quarters, importance.mirrored)]]
+        return quarters[importance.query.is_upright(quarters, importance.mirrored)]
     e = importance.target.elements
     strength = a.weight.sum(axis=0) * np.repeat(a.accuracy, a.per_pair)
-    # A suggestion per entry and edge of its segment.
-    edge, entry = np.nonzero(e.edge_segment[:, None] == a.target)
+    # A suggestion per edge and entry of its segment.
+    if e.heading(ElementType.SEGMENT) is not None:  # an edge each
+        entry = np.argsort(a.target, kind="stable")
+        edge = a.target[entry]
+        weight = strength[entry]
+    else:
+        edge, entry = np.nonzero(e.edge_segment[:, None] == a.target)
+        weight = strength[entry] * (e.edge_length / e.segment_length[e.edge_segment])[edge]
     angle = (e.edge_heading[edge] + a.turn[0, entry]) % (2 * np.pi)
-    weight = strength[entry] * (e.edge_length / e.segment_length[e.edge_segment])[edge]
     upright = importance.query.is_upright(angle, importance.mirrored)
     angle, weight = angle[upright], weight[upright]
     # Most suggest one of a few directions.
@@ -396,4 +406,4 @@ def directions(importance: Importance) -> list[float]:
         mean = middle + (wrap(angle[best] - middle) @ share) / share.sum()
         result.append(float(mean % (2 * np.pi)))
         left[best] = 0.0
-    return result
+    return np.array(result)

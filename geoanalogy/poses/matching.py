@@ -244,6 +244,18 @@ class Layout:
         return self.accuracy * np.add.reduceat(self.weight.sum(axis=0), self.pair_start)
 
     @cached_property
+    def worth(self) -> Array:
+        """What meeting each entry is worth: the weight times I_m of its pair; shape (relations, e)."""
+        return self.weight * np.repeat(self.accuracy, self.per_pair)
+
+    @cached_property
+    def features(self) -> list[tuple[int, int, int]]:
+        """First entry, end and number of samples of each source feature: all its pairs have the same samples."""
+        start = self.pair_start[self.feature_start].tolist()
+        ends = [*start[1:], len(self.target)]
+        return list(zip(start, ends, self.per_pair[self.feature_start].tolist(), strict=True))
+
+    @cached_property
     def _strongest(self) -> "dict[float, tuple[Indices, Layout]]":
         return {}
 

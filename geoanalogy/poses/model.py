@@ -12,6 +12,7 @@ from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..progress import Progress, Stepper, run
+from ..relations.elements import keep_features
 from ..relations.table import RELATIONS
 from .arrangement import Arrangement, arrangement_of
 from .candidates import Candidates, find_candidates
@@ -123,6 +124,7 @@ class PoseModel:
         """
         targets = self.targets(scene)
         spacing = self._spacing(targets)
+        keep_features(p for polygon in targets for p in (polygon, *scene.members_of(str(polygon.id))))
         found: list[PropagatedPose] = []
         tried: list[tuple[Importance, Candidates]] = []
         for i, polygon in enumerate(targets):

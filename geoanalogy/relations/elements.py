@@ -5,7 +5,8 @@ of them and all points in one call.
 """
 
 import enum
-from collections.abc import Sequence
+import operator
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from weakref import WeakKeyDictionary
@@ -13,8 +14,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.features import Corner, Segment, features_by_ring
 from ..geometry.polygon import Polygon
+from .extraction import extract, extract_each
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -107,79 +108,12 @@ class Elements:
         Elements
         """
         if not polygons:
-            return cls._extracted((), frame)
-        parts = []
-        for polygon in polygons:
-            kept = _KEPT.get(polygon)
-            if kept is None:
-                kept = _KEPT[polygon] = cls._extracted((polygon,), 0.0)
-            parts.append(kept)
+            return cls(polygons=(), frame=frame, **extract(()))
+        found = [_KEPT.get(p) for p in polygons]
+        if any(e is None for e in found):
+            keep_features(polygons)
+        parts = [_KEPT[p] if e is None else e for p, e in zip(polygons, found, strict=True)]
         return parts[0] if len(parts) == 1 and frame == parts[0].frame else cls.joined(parts, frame)
-
-    @classmethod
-    def _extracted(cls, polygons: tuple[Polygon, ...], frame: float) -> "Elements":
-        starts: list[Array] = []
-        vectors: list[Array] = []
-        turns: list[Array] = []
-        per_segment: list[int] = []
-        per_ring: list[int] = []
-        segments: list[Segment] = []
-        corners: list[Corner] = []
-        segment_polygon: list[int] = []
-        corner_polygon: list[int] = []
-        for i, polygon in enumerate(polygons):
-            for ring_segments, ring_corners in features_by_ring(polygon):
-                first = len(vectors)
-                for s in ring_segments:
-                    starts.append(s.vertices[:-1])
-                    vectors.append(s.vertices[1:] - s.vertices[:-1])
-                    per_segment.append(len(s.vertices) - 1)
-                turns.append(_turns(np.concatenate(vectors[first:])))
-                per_ring.append(len(turns[-1]))
-                segments += ring_segments
-                corners += ring_corners
-                segment_polygon += [i] * len(ring_segments)
-                corner_polygon += [i] * len(ring_corners)
-        edge_vector = np.concatenate(vectors) if vectors else np.zeros((0, 2))
-        edge_length = np.hypot(edge_vector[:, 0], edge_vector[:, 1])
-        edge_segment = np.repeat(np.arange(len(segments)), per_segment)
-        first_edge = first_of(np.array(per_segment, dtype=np.intp))
-        segment_length = np.add.reduceat(edge_length, first_edge) if segments else np.zeros(0)
-        first_of_ring = first_of(np.array(per_ring, dtype=np.intp))
-        ring_length = np.repeat(np.add.reduceat(edge_length, first_of_ring), per_ring) if segments else np.zeros(0)
-        arc = np.cumsum(edge_length) - edge_length
-        offset = arc - arc[first_edge][edge_segment]
-        # A segment may run over the ring's first vertex; there the count starts again.
-        ring_offset = (
-            np.array([s.ring_offset for s in segments], dtype=np.float64)[edge_segment] + offset
-        ) % ring_length
-        before = np.array([c.before for c in corners]).reshape(-1, 2)
-        return cls(
-            polygons=polygons,
-            frame=frame,
-            edge_start=np.concatenate(starts) if starts else np.zeros((0, 2)),
-            edge_vector=edge_vector,
-            edge_direction=np.asarray((edge_vector[:, 0] + 1j * edge_vector[:, 1]) / edge_length, dtype=np.complex128),
-            edge_heading=np.arctan2(edge_vector[:, 1], edge_vector[:, 0]),
-            edge_length=edge_length,
-            edge_offset=offset,
-            edge_ring_offset=ring_offset,
-            edge_ring_length=ring_length,
-            edge_turns=np.concatenate(turns) if turns else np.zeros((0, 2)),
-            edge_polygon=np.array(segment_polygon, dtype=np.intp)[edge_segment],
-            edge_segment=edge_segment,
-            segment_polygon=np.array(segment_polygon, dtype=np.intp),
-            segment_length=segment_length,
-            segment_curvature=np.array([s.curvature for s in segments]),
-            segment_closed=np.array([s.closed for s in segments], dtype=bool),
-            segment_label=tuple(s.label for s in segments),
-            polygon_centroid=np.array([p.centroid for p in polygons]).reshape(-1, 2),
-            polygon_orientation=np.array([p.main_orientation for p in polygons]),
-            corner_polygon=np.array(corner_polygon, dtype=np.intp),
-            corner_vertex=np.array([c.vertex for c in corners]).reshape(-1, 2),
-            corner_before=np.arctan2(-before[:, 1], -before[:, 0]),
-            corner_opening=np.array([c.opening for c in corners]),
-        )
 
     @classmethod
     def joined(cls, parts: Sequence["Elements"], frame: float = 0.0) -> "Elements":
@@ -196,7 +130,8 @@ class Elements:
         -------
         Elements
         """
-        together = {name: np.concatenate([getattr(p, name) for p in parts]) for name in _ARRAYS}
+        every = zip(*map(_arrays_of, parts), strict=True)
+        together = {name: np.concatenate(arrays) for name, arrays in zip(_ARRAYS, every, strict=True)}
         polygons = np.cumsum([0, *(len(p.polygons) for p in parts[:-1])])
         segments = np.cumsum([0, *(len(p.segment_length) for p in parts[:-1])])
         counted = (("edge_polygon", polygons), ("edge_segment", segments))
@@ -324,6 +259,19 @@ _ARRAYS = (*_OF_EDGES, *_OF_SEGMENTS, *_OF_CORNERS, *_OF_POLYGONS, "edge_polygon
 
 #: The features of polygons that are in use: they are asked for again with every arrangement that holds them.
 _KEPT: WeakKeyDictionary[Polygon, Elements] = WeakKeyDictionary()
+_arrays_of = operator.attrgetter(*_ARRAYS)
+
+
+def keep_features(polygons: Iterable[Polygon]) -> None:
+    """Extract the features of polygons that are about to be asked for: together, which costs a fraction.
+
+    Parameters
+    ----------
+    polygons : iterable of Polygon
+    """
+    missing = [p for p in dict.fromkeys(polygons) if p not in _KEPT]
+    for polygon, arrays in extract_each(missing):
+        _KEPT[polygon] = Elements(polygons=(polygon,), frame=0.0, **arrays)
 
 
 @cache
@@ -419,11 +367,3 @@ def run_starts(values: Indices) -> Indices:
     changed = np.ones(len(values), dtype=bool)
     np.not_equal(values[1:], values[:-1], out=changed[1:])
     return np.flatnonzero(changed)
-
-
-def _turns(steps: Array) -> Array:
-    """Turns before and after each edge of a ring, shape (n, 2), from the ways along its edges."""
-    following = np.concatenate([steps[1:], steps[:1]])
-    cross = steps[:, 0] * following[:, 1] - steps[:, 1] * following[:, 0]
-    after = np.arctan2(cross, np.einsum("ij,ij->i", steps, following))
-    return np.stack([np.concatenate([after[-1:], after[:-1]]), after], axis=1)

@@ -21,6 +21,7 @@ from shapes import (
 
 from geoanalogy import Polygon
 from geoanalogy.relations.elements import Elements, ElementType
+from geoanalogy.relations.extraction import extract, extract_each
 from geoanalogy.relations.observation import Observation
 from geoanalogy.relations.sighting import Sighting
 from geoanalogy.relations.table import (
@@ -300,6 +301,26 @@ def test_slope_is_the_length_of_the_gradient(name, outline):
     uphill = relation.uphill(Observation(elements, points))
     up = uphill.real * ahead[0] + uphill.imag * ahead[1]
     assert up[smooth] == pytest.approx(np.hypot(*ahead)[smooth], abs=2e-3)
+
+
+def test_features_extracted_together_are_those_of_each_polygon():
+    """Corners, labels, smooth vertices, holes and stated orientations: what is plain is evaluated all at once."""
+    labelled = Polygon(L_ROOM, segment_labels=["door", *[""] * (len(L_ROOM) - 1)], orientation=0.3)
+    turned = [
+        Polygon(rectangle(3, 2) @ np.array([[np.cos(t), np.sin(t)], [-np.sin(t), np.cos(t)]]) + t) for t in (1, 2)
+    ]
+    smooth = Polygon([(0, 0), (2, 0), (4, 0.2), (4, 3), (0, 3)])
+    others = [Polygon(UNIT_SQUARE, label="a"), Polygon(CIRCLE), Polygon(STAR), Polygon(HOLED_ROOM, holes=[COURTYARD])]
+    polygons = [*turned, labelled, smooth, *others]
+    found = dict(extract_each(polygons))
+    assert list(found) != polygons  # those that are plain come last
+    for polygon in polygons:
+        alone = extract([polygon])
+        assert found[polygon].keys() == alone.keys()
+        assert found[polygon].pop("segment_label") == alone.pop("segment_label")
+        for name, values in alone.items():
+            assert found[polygon][name].shape == values.shape
+            assert found[polygon][name] == pytest.approx(values, abs=1e-12), name
 
 
 @pytest.mark.parametrize("name", [n for n, r in RELATIONS.items() if r not in BOX_RELATIONS])
