@@ -100,6 +100,11 @@ class Evidence:
     mirrored: bool
 
     @property
+    def met(self) -> float:
+        """Evidence of corners as a share of what is enough, 0 to 1."""
+        return float(1.0 + np.log(self.corners))
+
+    @property
     def similarity(self) -> float:
         """The factors' weighted product, 0 to 1; less for a guess."""
         total = sum(weight * np.log(max(getattr(self, name), FLOOR)) for name, weight in EXPONENTS.items())

@@ -20,7 +20,7 @@ from .options import RegionOptions
 from .query import Query
 from .refinement import Refined
 from .retraced import retraced, wanting
-from .standing import least_shown
+from .standing import elsewhere, least_shown
 from .transformation import Nodes, TransformationFunction
 
 #: Candidates that are fitted to the end, of each place and in all: usually, and where branches may share a place.
@@ -223,8 +223,10 @@ def matching(
     yield 0.9, "choosing"
     fits.sort(key=lambda f: -f[1].similarity)
     kept = list(_separate(fits, fitter, options.branches))[: options.most]
-    shown = least_shown(np.array([e.similarity for _, e in kept]), options.threshold, options.contrast)
     chosen = [fit for fit, _ in kept]
+    alike, corners = np.array([(e.similarity, e.met) for _, e in kept]).reshape(-1, 2).T
+    rival = elsewhere(alike, *fitter.places(*_functions(chosen, nodes)))
+    shown = least_shown(alike, corners, rival, options.threshold, options.contrast)
     if judge:
         count = sum(measured.similarity >= shown for _, measured in kept[:MOST_SETTLED])
         chosen[:count] = settled(fitter, chosen[:count], judge.guides, judge.similarity)
@@ -252,8 +254,7 @@ class _Judge:
     def weighed(self, fits: list[Fit], again: bool) -> list[tuple[Fit, Evidence]]:
         """Fits with their evidence; `again`: chains are retraced along those that have little."""
         guides = self.guides
-        unknowns = np.array([f.function.unknowns for f in fits])
-        chained, along = guides.agreement(unknowns, np.array([f.function.mirrored for f in fits]))
+        chained, along = guides.agreement(*_functions(fits, guides.fitter.nodes))
         if again:
             weak = wanting(guides.fitter, fits, corners_met(chained, guides.most))
             found = retraced(self.contours, self.region, guides.fitter, [fits[i] for i in weak], self.options.mirrored)
@@ -267,6 +268,12 @@ class _Judge:
     def similarity(self, fits: list[Fit]) -> Floats:
         """How alike the targets of fits are, (k,)."""
         return np.array([measured.similarity for _, measured in self.weighed(fits, again=False)])
+
+
+def _functions(fits: list[Fit], nodes: Nodes) -> tuple[Complex, NDArray[np.bool_]]:
+    """The unknowns of fits, (k, 2m), and which are mirrored, (k,)."""
+    unknowns = np.array([f.function.unknowns for f in fits]).reshape(len(fits), 2 * len(nodes.at))
+    return unknowns, np.array([f.function.mirrored for f in fits], dtype=np.bool_)
 
 
 def _separate(found: list[tuple[Fit, Evidence]], fitter: Fitter, branches: bool) -> Iterator[tuple[Fit, Evidence]]:

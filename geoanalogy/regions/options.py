@@ -47,7 +47,7 @@ class RegionOptions:
         Matches that are returned at most.
     """
 
-    threshold: float = 0.45
+    threshold: float = 0.4
     contrast: float = 0.5
     query_kind: str = "auto"
     query_points: int = 50
