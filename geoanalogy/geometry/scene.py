@@ -252,6 +252,8 @@ class Scene:
 def _with_unique_ids(polygons: tuple[Polygon, ...]) -> tuple[Polygon, ...]:
     """The polygons, copied where they or the parent they name need a new id."""
     stated = {p.id for p in polygons if p.id is not None}
+    if len(stated) == len(polygons):
+        return polygons
     used: dict[str, Polygon] = {}
     bearers: dict[str, list[str]] = {}
     unnamed = (f"polygon {k}" for k in itertools.count())

@@ -51,8 +51,10 @@ class Arrangement:
         per_polygon = [(i == 0, p.label) for i, p in enumerate(e.polygons)]
         return {
             ElementType.POLYGON: [(*r, "") for r in per_polygon],
-            ElementType.SEGMENT: [(*per_polygon[k], e.segment_label[i]) for i, k in enumerate(e.segment_polygon)],
-            ElementType.CORNER: [(*per_polygon[k], "") for k in e.corner_polygon],
+            ElementType.SEGMENT: [
+                (*per_polygon[k], e.segment_label[i]) for i, k in enumerate(e.segment_polygon.tolist())
+            ],
+            ElementType.CORNER: [(*per_polygon[k], "") for k in e.corner_polygon.tolist()],
         }
 
     def is_at(self, other: "Arrangement") -> bool:

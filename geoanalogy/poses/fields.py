@@ -80,9 +80,12 @@ class Sheets:
 
     def __init__(self, grid: Grid) -> None:
         self.grid = grid
+        #: How often everything was forgotten.
+        self.forgotten = -1
         self._forget()
 
     def _forget(self) -> None:
+        self.forgotten += 1
         self._first: dict[tuple[ElementType, object], Indices] = {}
         self._used = dict.fromkeys(ElementType, 0)
         self._kept: dict[str, Array32] = {}
@@ -93,6 +96,18 @@ class Sheets:
     def nbytes(self) -> int:
         """Memory held, in bytes."""
         return sum(v.nbytes for v in self._kept.values()) + sum(v.nbytes for v in self._covered.values())
+
+    def forget_gone(self, polygons: Sequence[Polygon]) -> None:
+        """Forget everything, where most of it is about other polygons and some of these are not there yet.
+
+        Parameters
+        ----------
+        polygons : sequence of Polygon
+            Those that will be asked for.
+        """
+        known = {content for _, content in self._first}
+        if len(known) > STALE * len(polygons) and not known.issuperset(p.content for p in polygons):
+            self._forget()
 
     def evaluate(
         self, polygons: Sequence[Polygon], relations: Sequence[Positional], directions: Collection[Positional]
@@ -107,12 +122,7 @@ class Sheets:
             Those of them whose directional partners are evaluated too.
         """
         turned = dict.fromkeys(r.directional for r in directions if r.directional is not None)
-        wanted: list[Positional | Directional] = [*relations, *turned]
-        missing = self._missing(polygons, wanted)
-        if missing and len({c for _, c in self._first}) > STALE * len(polygons):
-            self._forget()
-            missing = self._missing(polygons, wanted)
-        for lacking, there in missing.items():
+        for lacking, there in self._missing(polygons, [*relations, *turned]).items():
             self._add(there, lacking)
 
     def _missing(
@@ -130,7 +140,7 @@ class Sheets:
     def _add(self, polygons: Sequence[Polygon], relations: Sequence[Positional | Directional]) -> None:
         elements = Elements.of(polygons)
         seen = Observation(elements, self.grid.points)
-        rows = {e: self._rows_of(e, elements) for e in dict.fromkeys(r.element for r in relations)}
+        rows = {e: _as_slice(self.rows(e, polygons)) for e in dict.fromkeys(r.element for r in relations)}
         for relation in relations:
             mine = rows[relation.element]
             if isinstance(relation, Directional):
@@ -145,34 +155,27 @@ class Sheets:
         for polygon in polygons:
             self._done[polygon.content] = (*self._done.get(polygon.content, ()), *(r.name for r in relations))
 
-    def _rows_of(self, element: ElementType, elements: Elements) -> Indices | slice:
-        """The rows of elements, found or made; a slice, which is written faster, where they are neighbours."""
-        owner = elements.polygon_of(element)
-        for i, polygon in enumerate(elements.polygons):
-            key = (element, polygon.content)
-            if key not in self._first:
-                count = int((owner == i).sum())
-                self._first[key] = np.arange(self._used[element], self._used[element] + count)
-                self._used[element] += count
-        rows = self.rows(element, elements.polygons)
-        if (rows[1:] - rows[:-1] == 1).all() and len(rows):
-            return slice(int(rows[0]), int(rows[-1]) + 1)
-        return rows
-
     def rows(self, element: ElementType, polygons: Sequence[Polygon]) -> Indices:
-        """The rows of the features of polygons, one polygon after another.
+        """The rows of the features of polygons, one polygon after another; made where there are none yet.
 
         Parameters
         ----------
         element : ElementType
         polygons : sequence of Polygon
-            Evaluated.
 
         Returns
         -------
         ndarray of int
         """
-        return np.concatenate([self._first[element, p.content] for p in polygons])
+        found = []
+        for polygon in polygons:
+            rows = self._first.get((element, polygon.content))
+            if rows is None:
+                first = self._used[element]
+                self._used[element] += Elements.of([polygon]).count(element)
+                rows = self._first[element, polygon.content] = np.arange(first, self._used[element])
+            found.append(rows)
+        return np.concatenate(found)
 
     def _write(self, name: str, element: ElementType, rows: Indices | slice, values: Array) -> None:
         kept = self._kept.get(name)
@@ -205,6 +208,13 @@ class Sheets:
         return kept
 
 
+def _as_slice(rows: Indices) -> Indices | slice:
+    """Rows as a slice, which is written faster, where they are neighbours."""
+    if len(rows) and (rows[1:] - rows[:-1] == 1).all():
+        return slice(int(rows[0]), int(rows[-1]) + 1)
+    return rows
+
+
 class Fields:
     """Every relation's value at every grid point, for the features of an arrangement.
 
@@ -219,13 +229,23 @@ class Fields:
         self.grid = sheets.grid
         self._polygons = polygons
         self._sheets = sheets
+        sheets.forget_gone(polygons)
+        self._start()
+
+    def _start(self) -> None:
+        self._forgotten = self._sheets.forgotten
         #: Fields by name, and the rows of the arrangement's features in those of their type.
         self._kept: dict[str, Array32] = {}
         self._features: dict[ElementType, Indices] = {}
         #: What has been asked for.
         self._evaluated: set[tuple[object, ...]] = set()
 
-    def evaluate(self, relations: Iterable[Positional], directions: Collection[Positional] | None = None) -> None:
+    def evaluate(
+        self,
+        relations: Iterable[Positional],
+        directions: Collection[Positional] | None = None,
+        polygons: Collection[int] | None = None,
+    ) -> None:
         """Evaluate relations that are not there yet.
 
         Parameters
@@ -233,14 +253,20 @@ class Fields:
         relations : iterable of Positional
         directions : collection of Positional, optional
             Those of them whose directional partners are evaluated too; None: all.
+        polygons : collection of int, optional
+            Numbers of the polygons to whose features they are evaluated; None: all.
         """
         wanted = list(dict.fromkeys(relations))
-        asked = (*wanted, None, *(() if directions is None else directions), directions is None)
+        every = (wanted, directions, polygons)
+        asked = tuple(None if part is None else tuple(part) for part in every)
+        if self._forgotten != self._sheets.forgotten:
+            self._start()
         if asked in self._evaluated:
             return
         self._evaluated.add(asked)
         turned = [r for r in wanted if r.directional is not None and (directions is None or r in directions)]
-        self._sheets.evaluate(self._polygons, wanted, turned)
+        chosen = self._polygons if polygons is None else [self._polygons[i] for i in polygons]
+        self._sheets.evaluate(chosen, wanted, turned)
         for element in {r.element for r in wanted}:
             self._features[element] = self._sheets.rows(element, self._polygons)
             for relation in (r for r in wanted if r.element is element):

@@ -175,8 +175,8 @@ def _accumulate(importance: Importance, fields: Fields, places: _Places) -> Arra
     total = np.zeros(len(places.which), dtype=np.float32)
     ends = np.cumsum(np.bincount(places.which, minlength=len(places.directions))).tolist()
     for element, a in importance.answers.items():
-        sets = _LevelSets.of(importance, element, a)
         heading = importance.target.elements.heading(element)
+        sets = _LevelSets.of(importance, element, a, shared=heading is None)
         if heading is None:
             turned = None if element is ElementType.CORNER else places.directions[places.which].astype(np.float32)
             sets.add(total, fields, places.samples, turned)
@@ -198,6 +198,9 @@ class _LevelSets:
     ----------
     relations : sequence of Positional
     target, sample : ndarray of shape (e,), int
+        Or what of both is read, where several entries share it: then
+    spread : ndarray of shape (e,), int, or None
+        is which of that each entry reads.
     value, weight, fall, turn : ndarray of shape (relations, e)
         The value asked for, what meeting it is worth, how much less it is worth per scene unit, and the direction.
     period : sequence of (ndarray of shape (e,) or None)
@@ -212,6 +215,7 @@ class _LevelSets:
     relations: Sequence[Positional]
     target: Indices
     sample: Indices
+    spread: Indices | None
     value: Array32
     weight: Array32
     fall: Array32
@@ -221,7 +225,7 @@ class _LevelSets:
     tolerance: float
 
     @classmethod
-    def of(cls, importance: Importance, element: ElementType, a: Answers) -> "_LevelSets":
+    def of(cls, importance: Importance, element: ElementType, a: Answers, shared: bool) -> "_LevelSets":
         value = a.value.copy()
         periods: list[Array32 | None] = []
         for k, relation in enumerate(a.relations):
@@ -236,11 +240,13 @@ class _LevelSets:
             value[k, cyclic] %= period[cyclic]
             periods.append(period.astype(np.float32))
         weight = a.layout.worth
+        target, sample, spread = a.layout.looks if shared else (a.target, a.sample, None)
         return cls(
             element=element,
             relations=a.relations,
-            target=a.target,
-            sample=a.sample,
+            target=target,
+            sample=sample,
+            spread=spread,
             value=value.astype(np.float32),
             weight=weight.astype(np.float32),
             fall=(weight / (WIDTH * importance.width)).astype(np.float32),
@@ -300,8 +306,9 @@ class _LevelSets:
         direction : ndarray of shape (n,), optional
             Of the footprint; None: directions do not count.
         """
-        most = max(LEAST_PLACES, MOST_VALUES // max(1, len(self.target)))
-        for start in range(0, len(total) if len(self.target) else 0, most):
+        entries = self.value.shape[1]
+        most = max(LEAST_PLACES, MOST_VALUES // max(1, entries))
+        for start in range(0, len(total) if entries else 0, most):
             part = slice(start, start + most)
             index = fields.index(self.element, self.target, samples[self.sample, part])
             met = self._met(fields, index, None if direction is None else direction[part])
@@ -312,23 +319,27 @@ class _LevelSets:
                     pairs = np.add.reduce(pairs.reshape(-1, count, len(here)), axis=1)
                 here += pairs[0] if len(pairs) == 1 else np.maximum.reduce(pairs, axis=0)
 
+    def _of_entries(self, read: Array32) -> Array32:
+        """What is read at places, for every entry."""
+        return read if self.spread is None else read.take(self.spread, axis=0)
+
     def _met(self, fields: Fields, index: Indices, direction: Array32 | None) -> Array32:
         """What every entry is worth at places; shape (e, n)."""
         met: Array32 | None = None
         for k, relation in enumerate(self.relations):
-            worth = fields.value(relation, index)
+            worth = self._of_entries(fields.value(relation, index))
             worth -= self.value[k, :, None]
             np.abs(worth, out=worth)
             period = self.period[k]
             if period is not None:
                 np.minimum(worth, period[:, None] - worth, out=worth)
             if relation.kind is not Kind.LENGTH:
-                worth *= fields.reach(relation, index)
+                worth *= self._of_entries(fields.reach(relation, index))
             worth *= self.fall[k, :, None]
             np.subtract(self.weight[k, :, None], worth, out=worth)
             np.maximum(worth, 0, out=worth)
             if direction is not None:
-                miss = direction - fields.direction(relation, index) - self.turn[k, :, None]
+                miss = direction - self._of_entries(fields.direction(relation, index)) - self.turn[k, :, None]
                 worth *= np.maximum(0, 1 - np.abs(wrap(miss)) / np.float32(self.tolerance))
             met = worth if met is None else np.add(met, worth, out=met)
         assert met is not None

@@ -50,6 +50,7 @@ class Importance:
         self.mirrored = sense.mirrored != query.pose.mirrored
         self.samples = query.samples * scale * ((1.0, -1.0) if self.mirrored else (1.0, 1.0))
         self.answers = (Matching(query, target) if matching is None else matching).answers(sense)
+        self._strongest: dict[float, Importance] = {}
 
     def of_strongest(self, share: float) -> "Importance":
         """The same without the pairs of features that contribute little: cheaper, and enough to find where maxima are.
@@ -63,9 +64,21 @@ class Importance:
         -------
         Importance
         """
-        result = copy.copy(self)
-        result.answers = {element: a.strongest(share) for element, a in self.answers.items()}
+        result = self._strongest.get(share)
+        if result is None:
+            result = self._strongest[share] = copy.copy(self)
+            result.answers = {element: a.strongest(share) for element, a in self.answers.items()}
+            result._strongest = {}
         return result
+
+    @property
+    def answering(self) -> list[int]:
+        """The numbers of the arrangement's polygons of which features may answer."""
+        there = np.zeros(len(self.target.elements.polygons), dtype=bool)
+        for element, a in self.answers.items():
+            there[self.target.elements.polygon_of(element)[a.target]] = True
+        answering: list[int] = np.flatnonzero(there).tolist()
+        return answering
 
     @property
     def relations(self) -> tuple[Positional, ...]:
@@ -77,7 +90,7 @@ class Importance:
         """The greatest importance any pose here can have: what every feature's best pair would give."""
         total = 0.0
         for a in self.answers.values():
-            total += float(np.maximum.reduceat(a.possible, a.feature_start).sum())
+            total += float(np.maximum.reduceat(a.layout.possible, a.feature_start).sum())
         return total / self.query.total if self.query.total else 0.0
 
     def directed(self, element: ElementType, sample: Indices) -> NDArray[np.bool_]:

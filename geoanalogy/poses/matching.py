@@ -1,8 +1,11 @@
 """Which features of an arrangement answer to which of the example's, and how well (sections 4.4, 4.6 and 4.8)."""
 
 import enum
+import operator
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,7 +50,7 @@ def matching_accuracy(source: Arrangement, target: Arrangement, element: Element
     """
     a, b = source.elements, target.elements
     # What must be equal to match: whether they are the parent's, and labels where these count.
-    roles = [[r if options.labels else r[:1] for r in x.roles[element]] for x in (source, target)]
+    roles = [x.roles[element] if options.labels else [r[:1] for r in x.roles[element]] for x in (source, target)]
     known = {role: k for k, role in enumerate(dict.fromkeys(roles[0]))}
     mine, theirs = (np.array([known.get(r, -1) for r in each], dtype=np.intp) for each in roles)
     may = mine[:, None] == theirs
@@ -219,14 +222,14 @@ class Layout:
         asking = question.feature[first]
         source, feature = np.nonzero(accuracy[asking] > LEAST_ACCURACY)
         through = np.tile(np.arange(symmetries), len(source))
-        source, feature = np.repeat(source, symmetries), np.repeat(feature, symmetries)
+        source, feature = source.repeat(symmetries), feature.repeat(symmetries)
         size = sizes(first, len(question.feature))[source]
         entry = ranges(first[source], size)
         source = asking[source]
         return cls(
             relations=question.relations,
-            entry=entry + len(question.feature) * np.repeat(through, size),
-            target=np.repeat(feature, size),
+            entry=entry + len(question.feature) * through.repeat(size),
+            target=feature.repeat(size),
             sample=question.sample[entry],
             weight=question.weight.take(entry, axis=1),
             contact=question.contact[entry],
@@ -247,6 +250,16 @@ class Layout:
     def worth(self) -> Array:
         """What meeting each entry is worth: the weight times I_m of its pair; shape (relations, e)."""
         return self.weight * np.repeat(self.accuracy, self.per_pair)
+
+    @cached_property
+    def looks(self) -> tuple[Indices, Indices, Indices]:
+        """The target feature and sample of all entries that differ in them, and which of these each entry has.
+
+        Several features of the example ask about one.
+        """
+        samples = int(self.sample.max(initial=0)) + 1
+        differing, spread = np.unique(self.target * samples + self.sample, return_inverse=True)
+        return differing // samples, differing % samples, spread.ravel()
 
     @cached_property
     def features(self) -> list[tuple[int, int, int]]:
@@ -300,6 +313,7 @@ class Layout:
 
 
 _SHARED = tuple(f.name for f in fields(Layout))
+_shared: Callable[[Layout], tuple[Any, ...]] = operator.attrgetter(*_SHARED)
 
 
 @dataclass(frozen=True)
@@ -334,7 +348,7 @@ class Answers(Layout):
         -------
         Answers
         """
-        shared = {name: getattr(layout, name) for name in _SHARED}
+        shared = dict(zip(_SHARED, _shared(layout), strict=True))
         return cls(**shared, layout=layout, value=value, turn=turn, inner=inner)
 
     def strongest(self, share: float) -> "Answers":

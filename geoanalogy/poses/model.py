@@ -18,7 +18,7 @@ from .arrangement import Arrangement, arrangement_of
 from .candidates import Candidates, find_candidates
 from .explanation import explain
 from .fields import Fields
-from .footprint_candidates import SLACK, directions_read, find_footprint_candidates
+from .footprint_candidates import SLACK, STRONG, directions_read, find_footprint_candidates
 from .giving_way import FREE, give_way
 from .importance import Importance
 from .kernels import wrap
@@ -216,7 +216,11 @@ class PoseModel:
         fields = self._fields(target, spacing, margin)
         # Together with what the validation asks for: all relations share what the grid's points see.
         relations = (RELATIONS["boundary distance"], *importance.relations)
-        fields.evaluate(relations, directions_read(importance) if self.query.rigid else None)
+        if self.query.rigid:
+            read = importance.of_strongest(STRONG)
+            fields.evaluate(relations, directions_read(read), read.answering)
+        else:
+            fields.evaluate(relations, polygons=importance.answering)
         blocked = self._validation.blocked(target, fields, slack)
         # The example would outshine the other places of its room.
         taken = self._is_example(target, fields.grid.points, importance.mirrored)

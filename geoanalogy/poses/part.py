@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,6 +63,21 @@ class Part:
     pair_start: Indices
     feature_start: Indices
     has_own_elements: bool = False
+
+    @cached_property
+    def first_entry(self) -> Indices:
+        """The first entry of each importance."""
+        return first_of(self.entries)
+
+    @cached_property
+    def first_pair(self) -> Indices:
+        """The first pair of each importance."""
+        return first_of(self.pairs)
+
+    @cached_property
+    def first_feature(self) -> Indices:
+        """The first feature of each importance."""
+        return first_of(self.features)
 
     @classmethod
     def of(

@@ -90,19 +90,20 @@ class Rows:
             pair_start, feature_start = part.pair_start, part.feature_start
         else:
             self._entries, pairs, features = part.entries[which], part.pairs[which], part.features[which]
-            self.entry = ranges(first_of(part.entries)[which], self._entries)
-            pair = ranges(first_of(part.pairs)[which], pairs)
+            self.entry = ranges(part.first_entry[which], self._entries)
+            pair = ranges(part.first_pair[which], pairs)
             self.accuracy, self.weight = part.accuracy[pair], part.weight.take(self.entry, axis=1)
             pair_start = part.pair_start[pair]
-            feature_start = part.feature_start[ranges(first_of(part.features)[which], features)]
+            feature_start = part.feature_start[ranges(part.first_feature[which], features)]
         first_row = first_of(self._entries)
-        self.pose = np.repeat(np.arange(len(which)), self._entries)
-        self.pair_start = pair_start + np.repeat(first_row, pairs)
-        self.feature_start = feature_start + np.repeat(first_of(pairs), features)
-        self._feature_pose = np.repeat(np.arange(len(which)), features)
+        numbers = np.arange(len(which))
+        self.pose = numbers.repeat(self._entries)
+        self.pair_start = pair_start + first_row.repeat(pairs)
+        self.feature_start = feature_start + first_of(pairs).repeat(features)
+        self._feature_pose = numbers.repeat(features)
         #: Half-width of the level sets of each row.
-        self.width = width[self.pose] if np.ptp(width) else width[:1]
-        self._held = np.flatnonzero(self._entries)
+        self.width = width[:1] if (width == width[:1]).all() else width[self.pose]
+        self._held = self._entries.nonzero()[0]
         self._first_row = first_row[self._held]
 
     @property
@@ -188,7 +189,7 @@ class Rows:
         x, y : ndarray of shape (n,)
         """
         sx, sy = self.asked[0]
-        c, s = np.cos(angle)[self.pose], np.sin(angle)[self.pose]
+        c, s = np.cos(angle).take(self.pose), np.sin(angle).take(self.pose)
         x, y = c * sx, s * sx
         x -= s * sy
         y += c * sy
@@ -236,7 +237,7 @@ class Rows:
         if self._all_directed is None:
             return None
         turn = self.asked[2][: self._directions]
-        miss = angle[self.pose] - turn
+        miss = angle.take(self.pose) - turn
         for k, relation in enumerate(self.relations[: self._directions]):
             miss[k] -= reference(relation, seen)[:, 0]
         miss = wrap(miss)

@@ -296,7 +296,7 @@ def first_of(size: Indices) -> Indices:
     >>> first_of(np.array([2, 0, 3])).tolist()
     [0, 2, 2]
     """
-    first: Indices = np.cumsum(size)
+    first: Indices = size.cumsum()
     first -= size
     return first
 
@@ -343,8 +343,9 @@ def ranges(start: Indices, count: Indices) -> Indices:
     >>> ranges(np.array([5, 0, 8]), np.array([2, 0, 3])).tolist()
     [5, 6, 8, 9, 10]
     """
-    runs: Indices = np.arange(count.sum())
-    runs += np.repeat(start - first_of(count), count)
+    offset = start - first_of(count)
+    runs: Indices = offset.repeat(count)
+    runs += np.arange(len(runs))
     return runs
 
 
@@ -366,4 +367,4 @@ def run_starts(values: Indices) -> Indices:
     """
     changed = np.ones(len(values), dtype=bool)
     np.not_equal(values[1:], values[:-1], out=changed[1:])
-    return np.flatnonzero(changed)
+    return changed.nonzero()[0]
