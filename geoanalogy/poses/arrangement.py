@@ -11,6 +11,7 @@ from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..relations.elements import Elements, ElementType
 from .fields import Fields, Grid, Sheets
+from .fronts import Fronts
 
 
 class Arrangement:
@@ -56,6 +57,11 @@ class Arrangement:
             ],
             ElementType.CORNER: [(*per_polygon[k], "") for k in e.corner_polygon.tolist()],
         }
+
+    @cached_property
+    def fronts(self) -> Fronts:
+        """What has to stay free before its openings."""
+        return Fronts.of(self.parent, self.members)
 
     def is_at(self, other: "Arrangement") -> bool:
         """Whether the other arrangement's parent is this one's, in the same place.

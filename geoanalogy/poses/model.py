@@ -2,10 +2,12 @@
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import partial
+from dataclasses import replace
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from ..errors import InputError
@@ -134,13 +136,7 @@ class PoseModel:
                 found += self._answers(tried, spacing)
                 tried.clear()
                 scene.memory.settle()
-        order = self._ranked(
-            np.array([p.importance for p in found]),
-            [p.mirrored != self.pose.mirrored for p in found],
-            np.array([p.pose.angle for p in found]),
-            [p.parent for p in found],
-        )
-        return PoseResults([found[i] for i in order], self.footprint)
+        return PoseResults(self._ranked(found), self.footprint)
 
     def targets(self, scene: Scene) -> list[Polygon]:
         """The polygons of a scene that can hold answers.
@@ -249,10 +245,9 @@ class PoseModel:
             self._accept(left, give_way(left, free, factor, self._stands), found)
         results = []
         for target, places in found.items():
-            value, _, angle, of = zip(*places, strict=True) if places else ((), (), (), ())
-            mirrored = [i.sense.mirrored for i in of]
-            order = self._ranked(np.array(value), mirrored, np.array(angle), [target.parent] * len(of))
-            results += self._apart(target, [places[i] for i in order])
+            apart = self._apart(self._ranked([self._result(target, *place) for place in places]))
+            most = min(self.options.candidates, self.options.max_per.get(target.parent.label, self.options.candidates))
+            results += self._ranked(self._passable(target, apart))[:most]
         return results
 
     def _accept(
@@ -283,10 +278,11 @@ class PoseModel:
         i = importance
         return ~self._validation.hopeless(i.target, position, angle, i.mirrored, i.scale, slack * i.width)
 
-    def _ranked(self, importance: Array, mirrored: Sequence[bool], angle: Array, parents: Sequence[Polygon]) -> Indices:
+    def _ranked(self, found: Sequence[PropagatedPose]) -> list[PropagatedPose]:
         """Best first; of equals, the object as it is before its mirror image, the least turned one first."""
-        frame = np.array([p.main_orientation for p in parents]) - self.parent.main_orientation
-        turn = np.abs(wrap(angle - self.pose.angle - frame)).round(3)
+        importance = np.array([p.importance for p in found])
+        frame = np.array([p.parent.main_orientation for p in found]) - self.parent.main_orientation
+        turn = np.abs(wrap(np.array([p.pose.angle for p in found]) - self.pose.angle - frame)).round(3)
         order = np.argsort(-importance, kind="stable")
         # Equals are those that the best of them is hardly better than.
         group = np.zeros(len(order), dtype=np.intp)
@@ -295,7 +291,8 @@ class PoseModel:
             if importance[order[first]] - importance[order[i]] > EQUAL:
                 first = i
             group[order[i]] = first
-        return np.lexsort((turn, np.array(mirrored), group))
+        mirrored = np.array([p.mirrored != self.pose.mirrored for p in found])
+        return [found[i] for i in np.lexsort((turn, mirrored, group))]
 
     def _is_example(self, target: Arrangement, position: Array, mirrored: bool) -> NDArray[np.bool_]:
         """Whether poses are the example itself, or its mirror image in the same place."""
@@ -312,28 +309,48 @@ class PoseModel:
             return 2 * self.query.width
         return float(np.ptp(self.footprint, axis=0).min()) / 2
 
-    def _apart(self, target: Arrangement, found: list[Found]) -> list[PropagatedPose]:
+    def _result(
+        self, target: Arrangement, value: float, position: Array, angle: float, importance: Importance
+    ) -> PropagatedPose:
+        """A place found, as it is told."""
+        pose = Pose((position[0], position[1]), angle % (2 * np.pi), importance.mirrored)
+        # Results outlive the fields of their parents, so they hold none of them.
+        surroundings = partial(Arrangement, target.parent, target.members)
+        explain = partial(self._explain, surroundings, importance.sense, importance.scale, position, angle)
+        return PropagatedPose(pose, value, target.parent, importance.scale, explain)
+
+    def _apart(self, found: list[PropagatedPose]) -> list[PropagatedPose]:
         """The best of one parent that keep their distance (non-maximum suppression)."""
-        most = min(self.options.candidates, self.options.max_per.get(target.parent.label, self.options.candidates))
         in_space = self.options.accumulation == "pose space"
         kept: list[PropagatedPose] = []
-        for value, position, angle, importance in found:
-            if len(kept) >= most:
-                break
-            reach = self.reach * importance.scale
+        for p in found:
             # In pose space two directions at one place are two answers (figure 4.17).
-            if any(
-                math.dist(position, k.pose.position) < reach
-                and not (in_space and abs(np.angle(np.exp(1j * (angle - k.pose.angle)))) > self.options.direction_width)
+            if not any(
+                math.dist(p.pose.position, k.pose.position) < self.reach * p.scale
+                and not (
+                    in_space
+                    and abs(math.remainder(p.pose.angle - k.pose.angle, math.tau)) > self.options.direction_width
+                )
                 for k in kept
             ):
-                continue
-            pose = Pose((position[0], position[1]), angle % (2 * np.pi), importance.mirrored)
-            # Results outlive the fields of their parents, so they hold none of them.
-            surroundings = partial(Arrangement, target.parent, target.members)
-            explain = partial(self._explain, surroundings, importance.sense, importance.scale, position, angle)
-            kept.append(PropagatedPose(pose, value, target.parent, importance.scale, explain))
+                kept.append(p)
         return kept
+
+    def _passable(self, target: Arrangement, found: list[PropagatedPose]) -> list[PropagatedPose]:
+        """The same, worth less as far as they are in the way where the example is not."""
+        if self.footprint is None or not self.options.validate or not len(target.fronts) or not found:
+            return found
+        outlines = shapely.polygons([p.pose.to_scene(self.footprint * p.scale) for p in found])
+        left = target.fronts.passable(outlines, self._in_front)
+        less = (replace(p, importance=p.importance * f) for p, f in zip(found, left.tolist(), strict=True))
+        return [p for p in less if p.importance >= self.options.threshold]
+
+    @cached_property
+    def _in_front(self) -> dict[str, float]:
+        """How much of fronts the example covers."""
+        if self.footprint is None:
+            return {}
+        return self._arrangement.fronts.covered_by(shapely.Polygon(self.pose.to_scene(self.footprint)))
 
     def _explain(
         self, surroundings: Callable[[], Arrangement], sense: Sense, scale: float, position: Array, angle: float

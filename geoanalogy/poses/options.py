@@ -58,7 +58,8 @@ class PoseOptions:
         Factor per relation name or label of the example's features, to mute (0) or stress what the distance alone does
         not tell (figure 4.19).
     validate : bool
-        Whether poses that intersect what the example does not are removed (section 4.8).
+        Whether poses that intersect what the example does not are removed (section 4.8), and those that stand before
+        openings which the example leaves free are worth less.
     alternative_geometry : mapping of str to sequence of (float, float)
         Ring in scene coordinates per polygon id that stands for the polygon in validation: a door with its swing.
     clearance : mapping of str to float

@@ -1,7 +1,7 @@
 """What a propagation returns: ranked poses, thinned without recomputation (sections 4.5 and 4.8)."""
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import overload
 
@@ -46,7 +46,7 @@ class PropagatedPose:
     ----------
     pose : Pose
     importance : float
-        1 where every relation of the example is met.
+        1 where every relation of the example is met, and no more stands before doors and windows than there.
     parent : Polygon
         The polygon it stands in.
     scale : float
@@ -70,7 +70,10 @@ class PropagatedPose:
     @cached_property
     def relations(self) -> tuple[RelationShare, ...]:
         """What carried it, largest first; the weights add up to the importance (figure 4.14)."""
-        return self.explain()
+        shares = self.explain()
+        # What scale and fronts take off, all of them lose alike.
+        total = sum(s.weight for s in shares)
+        return tuple(replace(s, weight=s.weight * self.importance / total) for s in shares) if total else shares
 
 
 class PoseResults(Sequence[PropagatedPose]):
