@@ -4,6 +4,9 @@ Lines hold a fit across themselves and hardly along: it stays as far along them 
 it started from. Others that agree with it about the place lie a little further or less far, and limbs that one of them
 misses another one has. So the best of them are fitted once more, with counterparts continued along the lines
 (`growing`), and the functions are averaged, each weighed by how alike the target is by it.
+
+What is drawn keeps its widths and lengths when it bends. So these last rounds hold functions to one scale, softly: what
+lines leave open, along them and where a part is missing, is then turned rather than stretched.
 """
 
 from collections.abc import Callable
@@ -11,13 +14,17 @@ from collections.abc import Callable
 import numpy as np
 
 from ..geometry.contours import Complex, Floats, Indices
-from .fitting import Fit, Fitter
+from .fitting import FITTING, Costs, Fit, Fitter
 from .guides import Guides
 
 #: How far chains and alignments must agree with a fit, and how many are fitted beside it.
 LEAST_AGREEING, MOST = 0.25, 4
 #: Stiffness of the functions at first and round by round: (strain, bend) weights.
 START, ROUNDS = (0.03, 0.1), ((0.03, 0.1), (0.01, 0.1), (0.01, 0.1))
+#: Weight of one scale beside a mean squared distance of 1.
+RIGIDITY = 0.1
+#: Near the end lines are where they belong, and a sample without a counterpart is dearer than while fitting.
+SETTLING = Costs(FITTING.stretch, FITTING.turn, 0.3)
 #: Mean distance from the fit, in extents of the query at the target's scale, from which on a function is another fit.
 NEARBY = 0.06
 #: Power of the similarity that a function is weighed by: one that is 2 % less alike counts half.
@@ -49,7 +56,8 @@ def settled(fitter: Fitter, fits: list[Fit], guides: Guides, similarity: Callabl
     alike = similarity(fitter.measured(unknowns, mirrored[of]))
     average = np.array([averaged(unknowns[of == k], alike[of == k], fitter.size) for k in range(len(fits))])
     # what lies between lines is no evidence: the averages are laid onto them
-    return fitter.measured(fitter.moved(fitter.sampling, average, mirrored, ROUNDS[-1]), mirrored)
+    laid = fitter.moved(fitter.sampling, average, mirrored, ROUNDS[-1], SETTLING, RIGIDITY)
+    return fitter.measured(laid, mirrored)
 
 
 def averaged(unknowns: Complex, alike: Floats, size: float) -> Complex:
@@ -90,5 +98,5 @@ def _variants(fitter: Fitter, fits: list[Fit], guides: Guides) -> tuple[Complex,
     unknowns = np.array([*own, *led])
     for number, stiffness in enumerate(ROUNDS):
         growing = number < len(ROUNDS) - 1
-        unknowns = fitter.moved(fitter.sampling, unknowns, mirrored[of], stiffness, growing)
+        unknowns = fitter.moved(fitter.sampling, unknowns, mirrored[of], stiffness, SETTLING, RIGIDITY, growing)
     return np.concatenate([own, unknowns]), np.concatenate([np.arange(len(fits)), of])

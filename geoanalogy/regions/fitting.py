@@ -108,9 +108,29 @@ class Fitter:
         np.add.at(right, at, share * np.concatenate([image, factor]))
         return np.linalg.solve(left + self._smooth(0.1, 0.1), right)
 
-    def solve(self, source: Blended, image: Complex, weight: Floats, stiffness: tuple[float, float]) -> Complex:
-        """Weighted least squares with smoothness, for several candidates: (h, k) images and weights to (h, 2m)."""
-        return source.solve(image, weight, self._smooth(*stiffness))
+    def solve(
+        self,
+        source: Blended,
+        image: Complex,
+        weight: Floats,
+        stiffness: tuple[float, float],
+        rigid: tuple[float, Complex] | None = None,
+    ) -> Complex:
+        """Weighted least squares with smoothness, for several candidates: (h, k) images and weights to (h, 2m).
+
+        `rigid` is a weight and the factors (h, m) of functions before: the factors are drawn to their rotations at one
+        scale, the median of theirs. That is "as rigid as possible", one step at a time: a rotation by itself is no
+        linear function of a factor, towards a known one it is.
+        """
+        smooth, m = self._smooth(*stiffness), len(self.nodes.at)
+        if rigid is None:
+            return source.solve(image, weight, smooth)
+        share, size = rigid[0] * self.nodes.spacing**2 / m, np.abs(rigid[1])
+        factors = np.arange(m, 2 * m)
+        smooth[factors, factors] += share
+        toward = np.zeros((len(image), 2 * m), complex)
+        toward[:, m:] = share * np.median(size, axis=1, keepdims=True) * rigid[1] / np.maximum(size, 1e-12)
+        return source.solve(image, weight, smooth, toward)
 
     def _smooth(self, strain: float, bend: float) -> Complex:
         """What keeps functions smooth, (2m, 2m), and normal equations solvable."""
@@ -154,13 +174,19 @@ class Fitter:
         unknowns: Complex,
         mirrored: NDArray[np.bool_],
         stiffness: tuple[float, float],
+        costs: Costs = FITTING,
+        rigidity: float = 0.0,
         growing: bool = False,
     ) -> Complex:
-        """One round: functions (h, 2m) moved onto their counterparts, which may be continued along the lines."""
-        at, image, weight, _, _ = self.counterparts(sampling, unknowns, mirrored, FITTING)
+        """One round: functions (h, 2m) moved onto their counterparts, which may be continued along the lines.
+
+        `rigidity` is the weight of one scale beside a mean squared distance of 1.
+        """
+        at, image, weight, _, _ = self.counterparts(sampling, unknowns, mirrored, costs)
         if growing:
             image, weight = grown(sampling, self.target, unknowns, mirrored, (at, image, weight))
-        return self.solve(sampling.blended, image, weight + 1e-6, stiffness)
+        rigid = (rigidity, unknowns[:, len(self.nodes.at) :]) if rigidity > 0.0 else None
+        return self.solve(sampling.blended, image, weight + 1e-6, stiffness, rigid)
 
     def measured(self, unknowns: Complex, mirrored: NDArray[np.bool_]) -> list[Fit]:
         """Functions as fits: with counterparts that say what they are worth."""

@@ -43,7 +43,7 @@ class Blended:
         z = self.points - self.nodes.at.mean()
         return np.array([np.ones(len(z)), z.real, z.imag, np.abs(z) ** 2])[:, None, :]
 
-    def solve(self, goal: Complex, weight: Floats, smooth: Complex) -> Complex:
+    def solve(self, goal: Complex, weight: Floats, smooth: Complex, toward: Complex | float = 0.0) -> Complex:
         """Unknowns of functions that take the points near their goals.
 
         Parameters
@@ -54,13 +54,15 @@ class Blended:
             Those of a candidate are divided by their sum.
         smooth : (2m, 2m) complex
             What is added to the matrices of the normal equations; Hermitian and positive definite.
+        toward : (h, 2m) complex, or 0
+            What is added to their right-hand sides.
 
         Returns
         -------
         (h, 2m) complex
         """
         share = weight / np.maximum(weight.sum(1, keepdims=True), 1e-12)
-        right = (share * goal) @ self.rows.conj()
+        right = (share * goal) @ self.rows.conj() + toward
         return np.array([np.linalg.solve(self._squares(s) + smooth, r) for s, r in zip(share, right, strict=True)])
 
     def _squares(self, share: Floats) -> Complex:

@@ -60,6 +60,34 @@ def test_counterparts_are_not_continued_beyond_the_end_of_a_line():
     assert weight[0, missing].max() < 0.5 * LIGHT or (weight[0, missing] > 0.0).sum() <= 2
 
 
+def test_rigidity_draws_factors_to_one_scale_and_leaves_their_rotations():
+    fitter = fitter_of(moved(closed(OUTLINE), shift=SHIFT))[2]
+    m, blended = len(fitter.nodes.at), fitter.sampling.blended
+    # a conformal map whose scale grows along the fish
+    away = blended.points - blended.points.mean()
+    goal = (away + away**2 / (2.0 * fitter.size))[None]
+    weight = np.ones(goal.shape)
+    turned = 1.2 * np.exp(0.3j * np.arange(m))[None]
+    free = fitter.solve(blended, goal, weight, (0.01, 0.1))[0, m:]
+    soft = fitter.solve(blended, goal, weight, (0.01, 0.1), (0.1, free[None]))[0, m:]
+    stiff = fitter.solve(blended, goal, weight, (0.01, 0.1), (1e5, turned))[0, m:]
+    assert np.abs(free).std() > 0.02
+    assert np.abs(soft).std() < 0.9 * np.abs(free).std()
+    np.testing.assert_allclose(stiff, turned[0], atol=1e-3)
+
+
+def test_a_round_is_rigid_where_it_is_asked_to_be():
+    _, _, fitter, unknowns = fitter_of(moved(closed(OUTLINE), shift=SHIFT) * np.array([1.15, 0.9]))
+    m, flip = len(fitter.nodes.at), np.array([False])
+    stretch = {}
+    for rigidity in (0.0, 1.0):
+        found = unknowns
+        for _ in range(4):
+            found = fitter.moved(fitter.sampling, found, flip, (0.01, 0.1), consensus.SETTLING, rigidity)
+        stretch[rigidity] = np.log(np.abs(found[0, m:])).std()
+    assert stretch[1.0] < stretch[0.0]
+
+
 def functions(shifts):
     """Three nodes moved by shifts, unturned."""
     at = np.array([0.0, 1.0, 1.0j])

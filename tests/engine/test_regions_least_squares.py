@@ -45,3 +45,12 @@ def test_only_how_weights_compare_counts():
     blended, goal, weight = case(0.0)
     same = smooth(blended.nodes)
     np.testing.assert_allclose(blended.solve(goal, weight, same), blended.solve(goal, 7.0 * weight, same), rtol=1e-9)
+
+
+def test_what_is_added_to_the_right_hand_sides_draws_the_solution():
+    blended, goal, weight = case(0.0)
+    same, m = smooth(blended.nodes), len(blended.nodes.at)
+    toward = np.zeros((len(goal), 2 * m), complex)
+    toward[:, m:] = 1e6 * 0.7j
+    drawn = blended.solve(goal, weight, same + 1e6 * np.diag(np.r_[np.zeros(m), np.ones(m)]), toward)
+    np.testing.assert_allclose(drawn[:, m:], 0.7j, atol=1e-4)
