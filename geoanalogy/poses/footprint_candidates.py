@@ -6,7 +6,7 @@ suffice: positions are tried in the few directions that the features of an arran
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +45,9 @@ LEAST_PLACES = 64
 MOST_DIRECTIONS = 24
 LEADS = 64
 LEAST_SUGGESTED = 0.02
+
+#: Number of different suggestions up to which all are compared with all at once.
+FEW_DIRECTIONS = 256
 
 #: Suggested directions nearer than this, in radians, are the same but for rounding.
 SAME_DIRECTION = 1e-9
@@ -190,7 +193,7 @@ def _accumulate(importance: Importance, fields: Fields, places: _Places) -> Arra
     return total
 
 
-@dataclass(frozen=True)
+@dataclass(slots=True)
 class _LevelSets:
     """The level sets of one type of element, laid out for accumulation: an entry per pair of features and sample.
 
@@ -281,16 +284,19 @@ class _LevelSets:
         ends = np.bincount(which, weights=size, minlength=len(kernel)).cumsum().astype(np.intp).tolist()
         for start, end, features in zip([0, *ends], ends, _features(a, which, pair, len(kernel)), strict=False):
             part = slice(start, end)
-            yield replace(
-                self,
+            yield _LevelSets(
+                element=self.element,
+                relations=self.relations,
                 target=target[part],
                 sample=sample[part],
+                spread=None,
                 value=value[:, part],
                 weight=weight[:, part],
                 fall=fall[:, part],
                 turn=turn[:, part],
                 period=[None if p is None else p[part] for p in period],
                 features=features,
+                tolerance=self.tolerance,
             )
 
     def add(self, total: Array32, fields: Fields, samples: Indices, direction: Array32 | None = None) -> None:
@@ -403,11 +409,13 @@ def directions(importance: Importance) -> Array:
     apart = 0.9 * importance.query.options.direction_width
     least = LEAST_SUGGESTED * weight.sum()
     left = weight.copy()
+    few = len(angle) <= FEW_DIRECTIONS
+    beside = np.abs(wrap(angle[:, None] - angle)) < apart if few else None
     result: list[float] = []
     while len(result) < MOST_DIRECTIONS and left.max(initial=0.0) > 0:
         # The angle that gathers most around it, then the mean of what it gathers.
         lead = np.argsort(-left, kind="stable")[:LEADS]
-        near = np.abs(wrap(angle[lead][:, None] - angle)) < apart
+        near = np.abs(wrap(angle[lead][:, None] - angle)) < apart if beside is None else beside[lead]
         gathered = near @ left
         most = int(np.argmax(gathered))
         if result and gathered[most] < least:

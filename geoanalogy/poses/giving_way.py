@@ -5,6 +5,7 @@ the room. The object then gives way: it stands at the best place beside.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -54,24 +55,23 @@ def give_way(
     """
     turns = np.arange(WAYS) * (2 * np.pi / WAYS)
     rings = np.array([(far * np.cos(t), far * np.sin(t)) for far in AROUND for t in turns[: WAYS if far else 1]])
-    positions, angles = [], []
+    positions, angles = [np.zeros((0, 2))], [np.zeros(0)]
     for importance, every in zip(importances, candidates, strict=True):
         c = every.of(np.argsort(-every.strength, kind="stable")[:STRONGEST])
         cos, sin = np.cos(c.angle)[:, None], np.sin(c.angle)[:, None]
         x, y = importance.width * rings.T
         around = np.stack([cos * x - sin * y, sin * x + cos * y], axis=-1) + c.position[:, None]
-        position, angle = around.reshape(-1, 2), np.repeat(c.angle, len(rings))
-        free = stands(importance, position, angle, TOUCHING)
-        positions.append(position[free])
-        angles.append(angle[free])
-    which = np.repeat(np.arange(len(importances)), [len(a) for a in angles])
-    position, angle = np.concatenate(positions), np.concatenate(angles)
-    if not len(angle):
-        return Refined(which, position, angle, np.zeros(0))
+        positions.append(around.reshape(-1, 2))
+        angles.append(np.repeat(c.angle, len(rings)))
+    which = np.repeat(np.arange(len(importances)), [len(a) for a in angles[1:]])
+    poses = Refined(which, np.concatenate(positions), np.concatenate(angles), np.zeros(len(which)))
+    poses = poses.of(stands(importances, poses, TOUCHING))
+    if not len(poses.angle):
+        return poses
     batch = Batch(importances)
-    poses = Refined(which, position, angle, batch.importance(which, position, angle))
-    room = batch.arrangement[which]
-    order = np.lexsort((-poses.value * np.asarray(factor)[which], room))
+    poses = replace(poses, value=batch.importance(poses.which, poses.position, poses.angle))
+    room = batch.arrangement[poses.which]
+    order = np.lexsort((-poses.value * np.asarray(factor)[poses.which], room))
     best = order[run_starts(room[order])]
     return _uphill(batch, importances, poses.of(np.sort(best)), stands)
 
@@ -87,9 +87,9 @@ def _uphill(batch: Batch, importances: Sequence[Importance], poses: Refined, sta
         position, angle = poses.one_step_away(reach)
         offered = batch.total(rows, position.reshape(-1, 2), angle.ravel()).reshape(angle.shape)
         better = offered > before[:, None]
-        for k, mine in poses.by_importance():
-            gains = better[mine]
-            gains[gains] = stands(importances[k], position[mine][gains], angle[mine][gains], TOUCHING)
+        of, way = np.nonzero(better)
+        offers = Refined(poses.which[of], position[better], angle[better], offered[better])
+        better[of, way] = stands(importances, offers, TOUCHING)
         offered = np.where(better, offered, -1.0)
         way = np.argmax(offered, axis=1)
         poses = poses.bettered(position[every, way], angle[every, way], offered[every, way])

@@ -273,10 +273,15 @@ class PoseModel:
         i = importance
         return self._validation.accepts(i.target, position, angle, i.mirrored, i.scale)
 
-    def _stands(self, importance: Importance, position: Array, angle: Array, slack: float) -> NDArray[np.bool_]:
+    def _stands(self, importances: Sequence[Importance], poses: Refined, slack: float) -> NDArray[np.bool_]:
         """Whether poses that move no further than `slack`, in half-widths of level sets, may be accepted."""
-        i = importance
-        return ~self._validation.hopeless(i.target, position, angle, i.mirrored, i.scale, slack * i.width)
+        number = {t: k for k, t in enumerate(dict.fromkeys(i.target for i in importances))}
+        target = np.array([number[i.target] for i in importances], dtype=np.intp)[poses.which]
+        mirrored = np.array([i.mirrored for i in importances], dtype=bool)[poses.which]
+        scale = np.array([i.scale for i in importances])[poses.which]
+        width = np.array([i.width for i in importances])[poses.which]
+        targets = list(number)
+        return ~self._validation.hopeless(targets, target, poses.position, poses.angle, mirrored, scale, slack * width)
 
     def _ranked(self, found: Sequence[PropagatedPose]) -> list[PropagatedPose]:
         """Best first; of equals, the object as it is before its mirror image, the least turned one first."""

@@ -176,7 +176,9 @@ class Query:
         if self.options.local_importance == "constant":
             return np.ones_like(away)
         polygon = seen.elements.polygon_of(element)
-        inscribed = np.array([p.inscribed_radius for p in seen.elements.polygons])
+        # Of few polygons is the example inside, and the largest circle in one takes long to find.
+        within = zip(seen.elements.polygons, seen.inside.any(axis=1).tolist(), strict=True)
+        inscribed = np.array([p.inscribed_radius if holds else 0.0 for p, holds in within])
         enclosing = np.array([2 * p.enclosing_radius for p in seen.elements.polygons])
         # A member as wide as the room would else be attended to across all of it.
         outside = np.minimum(enclosing, 2 * self.arrangement.parent.enclosing_radius)

@@ -20,10 +20,6 @@ PER_PARENT = 12
 #: Candidates nearer than this, in half-widths of level sets, have come to the same maximum.
 SAME_MAXIMUM = 0.1
 
-#: Which poses of an importance may be accepted, given their positions, their angles and how far they still move, in
-#: half-widths of level sets.
-Stands = Callable[[Importance, Array, Array, float], Bools]
-
 
 @dataclass(frozen=True)
 class Refined:
@@ -106,6 +102,10 @@ class Refined:
         still = np.zeros_like(ahead)
         position = self.position[:, None] + np.stack([ahead, -ahead, across, -across, still, still], axis=1)
         return position, self.angle[:, None] + reach[:, 2:] * np.array([0, 0, 0, 0, 1, -1])
+
+
+#: Which poses of several importances may be accepted, given how far they still move, in half-widths of level sets.
+Stands = Callable[[Sequence[Importance], Refined, float], Bools]
 
 
 class Rivals:
@@ -196,9 +196,7 @@ class Rivals:
         """
         if self._stands is None:
             return np.arange(len(poses.which))
-        stands = np.ones(len(poses.which), dtype=bool)
-        for k, mine in poses.by_importance():
-            stands[mine] = self._stands(self._importances[k], poses.position[mine], poses.angle[mine], slack)
+        stands = self._stands(self._importances, poses, slack)
         value = self.worth(poses)
         top = self._best(poses.of(stands), value[stands])
         return np.flatnonzero(stands | (value > top[self._arrangement[poses.which]]))

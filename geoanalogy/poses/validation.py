@@ -1,5 +1,6 @@
 """Pose validation: no unwanted intersections (section 4.8)."""
 
+from collections.abc import Sequence
 from functools import cached_property
 from weakref import WeakKeyDictionary
 
@@ -8,6 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from ..geometry.polygon import Polygon
+from ..relations.elements import run_starts
 from ..tolerances import TOUCHING_SHARE
 from .arrangement import Arrangement
 from .fields import Fields
@@ -44,6 +46,8 @@ class Validation:
         self._pose = pose
         self._footprint = footprint
         self._options = options
+        #: The last slack and what it blocks: the same in all senses.
+        self._blocked: WeakKeyDictionary[Fields, tuple[float, NDArray[np.bool_]]] = WeakKeyDictionary()
         self._trees: WeakKeyDictionary[Arrangement, shapely.STRtree] = WeakKeyDictionary()
 
     @cached_property
@@ -103,10 +107,14 @@ class Validation:
         -------
         ndarray of shape (points,), bool
         """
+        known = self._blocked.get(fields)
+        if known is not None and known[0] == slack:
+            return known[1]
         deep = fields.boundary_distance > slack
         blocked = np.zeros(deep.shape[1], dtype=bool) if self.may_jut_out else ~fields.covered(0) & deep[0]
         for i, _ in self.obstacles(target):
             blocked |= fields.covered(i) & deep[i]
+        self._blocked[fields] = slack, blocked
         return blocked
 
     def accepts(
@@ -142,19 +150,28 @@ class Validation:
         return accepted
 
     def hopeless(
-        self, target: Arrangement, position: Array, angle: Array, mirrored: bool, scale: float, slack: float
+        self,
+        targets: Sequence[Arrangement],
+        which: NDArray[np.intp],
+        position: Array,
+        angle: Array,
+        mirrored: NDArray[np.bool_],
+        scale: Array,
+        slack: Array,
     ) -> NDArray[np.bool_]:
         """Which poses would have to move further than `slack` to be accepted.
 
         Parameters
         ----------
-        target : Arrangement
+        targets : sequence of Arrangement
+        which : ndarray of shape (m,), int
+            The number of each pose's arrangement; equal ones are neighbours.
         position : ndarray of shape (m, 2)
         angle : ndarray of shape (m,)
-        mirrored : bool
-        scale : float
+        mirrored : ndarray of shape (m,), bool
+        scale : ndarray of shape (m,)
             Of the footprint.
-        slack : float
+        slack : ndarray of shape (m,)
             Scene units.
 
         Returns
@@ -167,12 +184,16 @@ class Validation:
         # The object without a margin all around: what that still hits is hit so deeply.
         low, high = self._footprint.min(axis=0), self._footprint.max(axis=0)
         middle, extent = (low + high) / 2, (high - low) / 2
-        core = np.maximum(1 - slack / scale / extent, LEAST_CORE)
+        core = np.maximum(1 - (slack / scale)[:, None] / extent, LEAST_CORE)[:, None]
         outlines = self._outlines(middle + core * (self._footprint - middle), position, angle, mirrored, scale)
-        if not self.may_jut_out:
-            shapely.prepare(target.parent.shape)
-            hopeless |= ~shapely.covers(target.parent.shape, outlines)
-        hopeless[self._tree(target).query(outlines, predicate="intersects")[0]] = True
+        first = run_starts(which).tolist()
+        for start, end in zip(first, [*first[1:], len(which)], strict=True):
+            target = targets[which[start]]
+            there = outlines[start:end]
+            if not self.may_jut_out:
+                shapely.prepare(target.parent.shape)
+                hopeless[start:end] = ~shapely.covers(target.parent.shape, there)
+            hopeless[start + self._tree(target).query(there, predicate="intersects")[0]] = True
         return hopeless
 
     def _tree(self, target: Arrangement) -> shapely.STRtree:
@@ -183,13 +204,17 @@ class Validation:
         return tree
 
     @staticmethod
-    def _outlines(ring: Array, position: Array, angle: Array, mirrored: bool, scale: float) -> NDArray[np.object_]:
-        """A ring in the pose's frame, at every pose."""
-        ring = ring * scale * ((1.0, -1.0) if mirrored else (1.0, 1.0))
+    def _outlines(
+        ring: Array, position: Array, angle: Array, mirrored: NDArray[np.bool_] | bool, scale: Array | float
+    ) -> NDArray[np.object_]:
+        """A ring in the pose's frame, or one of each pose, at every pose."""
+        scale = np.asarray(scale)[..., None]
+        x, y = ring[..., 0] * scale, ring[..., 1] * scale * np.where(mirrored, -1.0, 1.0)[..., None]
         c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
-        x = position[:, :1] + c * ring[:, 0] - s * ring[:, 1]
-        y = position[:, 1:] + s * ring[:, 0] + c * ring[:, 1]
-        return shapely.polygons(np.stack([x, y], axis=-1))  # type: ignore[no-any-return]
+        outlines = np.empty((len(position), ring.shape[-2], 2))
+        outlines[..., 0] = position[:, :1] + c * x - s * y
+        outlines[..., 1] = position[:, 1:] + s * x + c * y
+        return shapely.polygons(outlines)  # type: ignore[no-any-return]
 
 
 def _share_more_than_a_sliver(outlines: NDArray[np.object_], obstacles: NDArray[np.object_]) -> NDArray[np.bool_]:

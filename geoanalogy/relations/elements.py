@@ -7,8 +7,9 @@ of them and all points in one call.
 import enum
 import operator
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache, cached_property
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -27,6 +28,9 @@ class ElementType(enum.Enum):
     POLYGON = "polygon"
     SEGMENT = "segment"
     CORNER = "corner"
+
+    # There is one of each: they are looked up thousands of times an operation, and a name takes longer to hash.
+    __hash__ = object.__hash__
 
 
 @dataclass(frozen=True)
@@ -171,14 +175,16 @@ class Elements:
             if edges_kept is not None:
                 kept = edges_kept[edges]
                 edges, owner = edges[kept], owner[kept]
-        return replace(
-            _nothing(),
-            frame=self.frame,
-            edge_segment=owner,
-            edge_polygon=owner,
-            **{name: getattr(self, name).take(edges, axis=0) for name in _SEEN_OF_EDGES[element]},
-            **{name: getattr(self, name).take(rows, axis=0) for name in _SEEN[element]},
-        )
+        # Thousands of times an operation: `replace` would set one attribute after another.
+        made = object.__new__(Elements)
+        values = made.__dict__
+        values.update(_nothing())
+        values.update(frame=self.frame, edge_segment=owner, edge_polygon=owner)
+        for name in _SEEN_OF_EDGES[element]:
+            values[name] = self.__dict__[name].take(edges, axis=0)
+        for name in _SEEN[element]:
+            values[name] = self.__dict__[name].take(rows, axis=0)
+        return made
 
     def count(self, element: ElementType) -> int:
         """Number of elements of a type.
@@ -275,9 +281,9 @@ def keep_features(polygons: Iterable[Polygon]) -> None:
 
 
 @cache
-def _nothing() -> Elements:
-    """No elements at all."""
-    return Elements.of(())
+def _nothing() -> dict[str, Any]:
+    """The attributes of no elements at all."""
+    return dict(vars(Elements.of(())))
 
 
 def first_of(size: Indices) -> Indices:

@@ -305,7 +305,7 @@ def test_of_a_footprint_only_segments_and_what_polygons_are_to_its_centre_ask_fo
 def test_candidates_that_cannot_stand_are_left_out_unless_they_promise_most(promise, left):
     importance = importance_of(scene_of(BEDROOM), BED_POSE, BED)
     batch = Batch([importance])
-    rivals = Rivals([importance], batch, np.ones(1), lambda of, position, angle, slack: position[:, 0] > slack)
+    rivals = Rivals([importance], batch, np.ones(1), lambda _, poses, slack: poses.position[:, 0] > slack)
     poses = Refined(np.zeros(3, dtype=np.intp), np.array([(3.0, 1), (1, 1), (4, 1)]), np.zeros(3), np.ones(3))
     poses = dataclasses.replace(poses, value=np.array([0.8, promise, 0.4]))
     assert rivals.standing(poses, 2.0).tolist() == left

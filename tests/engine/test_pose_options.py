@@ -261,11 +261,25 @@ def test_a_pose_is_hopeless_that_hits_something_deeper_than_it_may_move(away, ex
     model = learn_pose(scene, Pose((1.5, 3)), BED, PoseOptions())
     target = arrangement_of(scene, scene.polygon("r"))
     validation = Validation(target, model.pose, BED, model.options)
-    at_wardrobe, at_wall = np.array([[4 + away, 1]]), np.array([[3, 0.8 - away]])
-    for place in (at_wardrobe, at_wall):
-        assert validation.hopeless(target, place, np.zeros(1), False, 1.0, 0.4).tolist() == [expected]
+    at_wardrobe, at_wall = (4 + away, 1.0), (3.0, 0.8 - away)
+    places = np.array([at_wardrobe, at_wall])
+    poses = (np.zeros(2, dtype=np.intp), places, np.zeros(2), np.zeros(2, dtype=bool), np.ones(2), np.full(2, 0.4))
+    assert validation.hopeless([target], *poses).tolist() == [expected, expected]
     free = Validation(target, model.pose, BED, dataclasses.replace(model.options, validate=False))
-    assert not free.hopeless(target, at_wall, np.zeros(1), False, 1.0, 0.4).any()
+    assert not free.hopeless([target], *poses).any()
+
+
+def test_poses_in_several_rooms_are_hopeless_or_not_each_in_its_own():
+    """A bed 1.6 wide and 2 long, mirrored, twice as large, and in a room where its place is taken."""
+    rooms = [Polygon(rectangle(8, 6, (x, 0)), "room", f"r{x}") for x in (0, 10)]
+    scene = Scene([*rooms, Polygon(rectangle(2, 2, (15, 0)), "wardrobe", parent="r10")])
+    model = learn_pose(scene, Pose((1.5, 3)), BED, PoseOptions())
+    targets = [arrangement_of(scene, room) for room in rooms]
+    validation = Validation(targets[0], model.pose, BED, model.options)
+    which, x = np.array([0, 0, 0, 1, 1]), np.array([6.0, 6, 6, 16, 12])
+    mirrored, scale = np.array([False, True, False, False, True]), np.array([1.0, 1, 2, 1, 1])
+    poses = (which, np.column_stack([x, np.full(5, 1.0)]), np.zeros(5), mirrored, scale, np.full(5, 0.1))
+    assert validation.hopeless(targets, *poses).tolist() == [False, False, True, True, False]
 
 
 def test_results_stay_inside_as_far_as_the_example_does():
