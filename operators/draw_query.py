@@ -9,16 +9,13 @@ from ..geoanalogy.blender.regions.queries import add_query
 from ..geoanalogy.blender.regions.sketch import QuerySketch
 from ..geoanalogy.errors import InputError
 from .edit import needs_object_mode
-from .view_drawing import DONE_EVENTS, ViewDrawing
+from .view_drawing import DONE_EVENTS, MOVES, ViewDrawing
 
 MODES = [
     ("LASSO", "Lasso", "Drag round the region", "BORDERMOVE", 0),
     ("BRUSH", "Brush", "Paint over the region, in as many strokes as need be; Enter when it is done", "BRUSH_DATA", 1),
     ("STROKE", "Stroke", "Drag along a thin shape: a coral, a stalk", "GREASEPENCIL", 2),
 ]
-
-#: Where the window takes long to draw, all but the last place of the mouse come as moves in between.
-MOVES = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}
 
 HELP = {
     "LASSO": "drag round the region",

@@ -4,10 +4,10 @@ import bpy
 from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty, StringProperty
 
 from ..geoanalogy.blender.overlay import Overlay
-from ..geoanalogy.blender.rectangle_drawing import Sketch, add_rectangles, sites_to_draw_on
+from ..geoanalogy.blender.rectangle_drawing import Sketch, add_rectangles, required_label, sites_to_draw_on
 from ..geoanalogy.errors import InputError
 from .edit import needs_object_mode
-from .view_drawing import DONE_EVENTS, ViewDrawing
+from .view_drawing import DONE_EVENTS, MOVES, ViewDrawing
 
 
 class GEOANALOGY_PG_corners(bpy.types.PropertyGroup):
@@ -34,19 +34,23 @@ class GEOANALOGY_OT_draw_rectangles(ViewDrawing, bpy.types.Operator):
     def edit(self, context):
         """Put the rectangles there."""
         corners = [(tuple(one.start), tuple(one.end), round(one.target, 6)) for one in self.rectangles]
-        label = self.label or context.scene.geoanalogy.rectangle_label
-        return f"{len(add_rectangles(context, corners, label))} examples"
+        return f"{len(add_rectangles(context, corners, self._label(context)))} examples"
+
+    def _label(self, context):
+        return self.label or context.scene.geoanalogy.rectangle_label
 
     def invoke(self, context, event):
         if context.area is None or context.area.type != "VIEW_3D":
             self.report({"ERROR"}, "rectangles are drawn in a 3D view; move the mouse over one")
             return {"CANCELLED"}
         try:
+            required_label(self._label(context))
             self._sketch = Sketch(sites_to_draw_on(context))
         except InputError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         self.rectangles.clear()
+        self._missed = False
         self._tell(context)
         return self.begin(context, Overlay(self._sketch.shapes), "CROSSHAIR")
 
@@ -67,13 +71,13 @@ class GEOANALOGY_OT_draw_rectangles(ViewDrawing, bpy.types.Operator):
             self._sketch.take_back()
         elif event.type == "N" and pressed:
             self._sketch.target = 1.0 - self._sketch.target
-        elif event.type == "MOUSEMOVE" and self._sketch.dragging:
+        elif event.type in MOVES and self._sketch.dragging:
             self._sketch.move(*self.sight(event))
         elif event.type == "LEFTMOUSE" and pressed:
             if not self.is_inside(event):
                 return {"PASS_THROUGH"}
-            if not self._sketch.press(*self.sight(event)):
-                self.report({"WARNING"}, "There is no labelled face here; label the face in step 1")
+            # A report would be shown at the end only.
+            self._missed = not self._sketch.press(*self.sight(event))
         elif event.type == "LEFTMOUSE" and event.value == "RELEASE" and self._sketch.dragging:
             self._sketch.move(*self.sight(event))
             self._sketch.release()
@@ -86,8 +90,10 @@ class GEOANALOGY_OT_draw_rectangles(ViewDrawing, bpy.types.Operator):
         current = self._sketch.current()
         size = f"{current[1].width:.3g} × {current[1].height:.3g}" if current else f"{len(self._sketch.done)} drawn"
         kind = "wanted" if self._sketch.target else "not wanted"
+        missed = "There is no labelled face here: Esc, and label the face in step 1. " if self._missed else ""
         context.workspace.status_text_set(
-            f"{size}, {kind} — drag across a face; N: wanted or not, Backspace: take back, Enter: done, Esc: cancel"
+            f"{missed}{size}, {kind} — drag across a face; "
+            "N: wanted or not, Backspace: take back, Enter: done, Esc: cancel"
         )
 
     def draw(self, context):

@@ -10,6 +10,9 @@ VIEW_EVENTS = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "
 #: Events that end drawing.
 DONE_EVENTS = {"RET", "NUMPAD_ENTER", "SPACE", "RIGHTMOUSE"}
 
+#: Where the window takes long to draw, all but the last place of the mouse come as moves in between.
+MOVES = {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}
+
 
 class ViewDrawing(Edit):
     """An operator whose input is drawn in a 3D view, and which then does its edit at once."""

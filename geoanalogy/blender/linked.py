@@ -1,4 +1,4 @@
-"""What is linked from another file: it cannot be edited here, and may be missing."""
+"""What is linked from another file: it cannot be edited here, and may be missing; what overrides it forgets."""
 
 from collections.abc import Iterable
 
@@ -17,12 +17,17 @@ def require_editable(items: Iterable[bpy.types.ID]) -> None:
     Raises
     ------
     InputError
-        Naming the first that is linked.
+        Naming the first that is linked, or overrides what is.
     """
     for item in items:
+        kind = item.bl_rna.name.lower()
         if not item.is_editable:
-            kind = item.bl_rna.name.lower()
             raise InputError(f"{kind} {item.name!r} is linked from another file; make it local, or change it there")
+        if item.override_library is not None:
+            raise InputError(
+                f"{kind} {item.name!r} overrides one of another file, and Blender would forget the change; make it "
+                "local, or change it there"
+            )
 
 
 def is_here(item: bpy.types.Object, scene: bpy.types.Scene) -> bool:
@@ -43,3 +48,21 @@ def is_here(item: bpy.types.Object, scene: bpy.types.Scene) -> bool:
     found = scene.objects.get(item.name)
     # A linked object and one of the file's own may have the same name.
     return found == item or (found is not None and scene in item.users_scene)
+
+
+def own_copy(item: bpy.types.Object) -> bpy.types.Object:
+    """A copy of an object that keeps what is written to it, whatever the object is.
+
+    Parameters
+    ----------
+    item : bpy.types.Object
+
+    Returns
+    -------
+    bpy.types.Object
+        In no collection yet; it shares the object's data. The copy of a library override would be one itself.
+    """
+    made = item.copy()
+    if made.override_library is not None:
+        made.make_local(clear_liboverride=True)
+    return made

@@ -6,6 +6,7 @@ from ..formats.repair import sound_parcels
 from ..geometry.scene import Scene
 from . import register
 from .reading.ground import read_grounds
+from .reading.whereabouts import up_to_date
 
 
 def open_parcels() -> tuple[Scene, list[str]]:
@@ -24,7 +25,7 @@ def open_parcels() -> tuple[Scene, list[str]]:
     """
     if not hasattr(bpy.types.Scene, "geoanalogy"):
         register()
-    grounds = read_grounds(bpy.context.scene, bpy.context.evaluated_depsgraph_get())
+    grounds = read_grounds(bpy.context.scene, up_to_date(bpy.context))
     problems: list[str] = []
     largest = max(grounds, key=lambda ground: len(ground.scene))
     return sound_parcels("the open file", largest.scene, problems), problems

@@ -16,6 +16,7 @@ from .reading.footprints import hull_of, outline_of, pose_of
 from .reading.ground import read_grounds
 from .reading.planes import Plane, best_plane
 from .reading.shapes import rings_of
+from .reading.whereabouts import up_to_date
 
 Array = NDArray[np.float64]
 
@@ -101,8 +102,7 @@ def polygons_from_lines(
     """
     if not items:
         raise InputError("nothing is selected; select the curves or strokes to make polygons of")
-    context.view_layer.update()
-    depsgraph = context.evaluated_depsgraph_get()
+    depsgraph = up_to_date(context)
     made = []
     for item in items:
         name = f"object {item.name!r}"
@@ -217,8 +217,7 @@ def take_footprints(context: bpy.types.Context, items: Sequence[bpy.types.Object
         Where one has no extent on the plan, no faces to take the outline of, or is linked; then none is changed.
     """
     require_editable(items)
-    context.view_layer.update()
-    depsgraph = context.evaluated_depsgraph_get()
+    depsgraph = up_to_date(context)
     own = [None if kind == "none" else _own_footprint(context, item, kind, depsgraph) for item in items]
     for item, footprint in zip(items, own, strict=True):
         if footprint is None:

@@ -227,8 +227,7 @@ def add_rectangles(
     """
     if not corners:
         raise InputError("no rectangle was drawn; drag one across a labelled face")
-    if not label.strip():
-        raise InputError("the rectangles have no label; say what they are before drawing them")
+    label = required_label(label)
     sites = sites_to_draw_on(context)
     wanted = []
     for start, end, target in corners:
@@ -240,10 +239,10 @@ def add_rectangles(
         item.select_set(False)
     made = []
     for rectangle, plane, target in wanted:
-        item = bpy.data.objects.new(f"{label.strip()} rectangle", _sheet(rectangle))
+        item = bpy.data.objects.new(f"{label} rectangle", _sheet(rectangle))
         holder.objects.link(item)
         item.matrix_world = Matrix(frame_of(Pose((rectangle.x, rectangle.y), rectangle.angle), plane).tolist())
-        item[names.LABEL] = label.strip()
+        item[names.LABEL] = label
         item[names.DRAWN] = True
         set_target(item, target)
         item.display_type = "WIRE"
@@ -252,6 +251,27 @@ def add_rectangles(
         made.append(item)
     context.view_layer.objects.active = made[-1]
     return made
+
+
+def required_label(label: str) -> str:
+    """What rectangles are called, without the blanks around it.
+
+    Parameters
+    ----------
+    label : str
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    InputError
+        Where nothing is left.
+    """
+    if not label.strip():
+        raise InputError("the rectangles have no label; say what they are before drawing them")
+    return label.strip()
 
 
 def set_target(item: bpy.types.Object, target: float) -> None:

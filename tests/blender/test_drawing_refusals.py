@@ -67,6 +67,13 @@ def found():
     leaves_found()
 
 
+def found_and_image_missing():
+    leaves_found()
+    lost = bpy.data.images.new("lost", 4, 4)
+    lost.source, lost.filepath = "FILE", "//nowhere.png"
+    bpy.context.scene.geoanalogy.image = lost
+
+
 def found_and_nothing_selected():
     leaves_found()
     for item in bpy.context.selected_objects:
@@ -116,6 +123,7 @@ CASES = [
     (found_and_result_active, CARRY, "is a result; select what is painted on the query"),
     (found_and_empty_mesh, CARRY, "object 'Hollow' has no points to carry over"),
     (found, LAY, "there is no image; choose one that is painted for the query"),
+    (found_and_image_missing, LAY, "the image 'lost' cannot be read from '//nowhere.png'; choose one that is there"),
     (drawing_erased, REPLAY, "the scene has no drawing"),
 ]
 

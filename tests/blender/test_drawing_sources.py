@@ -375,6 +375,7 @@ def test_every_move_of_the_mouse_counts_where_the_window_takes_long_to_draw(addo
     operator = importlib.import_module(f"{addon.__name__}.operators.draw_query").GEOANALOGY_OT_draw_query
     followed = []
     drawing = SimpleNamespace(
+        is_shown=lambda context: True,
         _area=SimpleNamespace(tag_redraw=lambda: None),
         _dragging=True,
         _drag=lambda context, event: followed.append(event.type),

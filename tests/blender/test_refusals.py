@@ -66,6 +66,11 @@ def upright():
     bed().rotation_euler = (0, math.radians(90), 0)
 
 
+def no_size():
+    rooms()
+    bed().scale = (0, 0, 0)
+
+
 def no_extent():
     rooms()
     activate(link(bpy.data.objects.new("Point", None), "point"))
@@ -196,6 +201,7 @@ CASES = [
     (outside, PROPAGATE, "object 'Bed': the example at x 50, y 50 lies outside every polygon"),
     (empty_scene, PROPAGATE, "the scene has no labelled outlines"),
     (upright, PROPAGATE, "object 'Bed' has its x axis upright"),
+    (no_size, PROPAGATE, "object 'Bed' has no size, since its scale is 0"),
     (no_extent, PROPAGATE, "object 'Point' has no extent on the plan"),
     (a_result, PROPAGATE, "is a result of 'bed' itself; select the example"),
     (nothing_labelled, PROPAGATE, "the scene has no labelled outlines"),

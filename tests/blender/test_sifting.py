@@ -186,6 +186,9 @@ def test_move_changes_the_order():
     assert [n.name for n in ordered(tree)] == names
     with pytest.raises(RuntimeError, match="not one operation follows"):
         bpy.ops.geoanalogy.move_operation(EXEC, True, direction="DOWN")
+    tree.nodes.active = tree.nodes[names[0]]
+    with pytest.raises(RuntimeError, match="it is the first already"):
+        bpy.ops.geoanalogy.move_operation(EXEC, True, direction="UP")
 
 
 def test_mute_hides_results_and_brings_them_back():

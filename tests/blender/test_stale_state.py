@@ -126,6 +126,56 @@ def test_hidden_collections_change_nothing(which, how):
     assert same(poses(), before)
 
 
+HIDDEN = ("disabled", "excluded", "disabled collection", "by eye")
+
+
+def hide(name, how):
+    """Hide what is in a collection, in one of the ways that Blender has."""
+    if how == "excluded":
+        layer_collection(name).exclude = True
+    elif how == "disabled collection":
+        bpy.data.collections[name].hide_viewport = True
+    for item in bpy.data.collections[name].objects:
+        if how == "disabled":
+            item.hide_viewport = item.hide_render = True
+        elif how == "by eye":
+            item.hide_set(True)
+
+
+@pytest.mark.parametrize("how", HIDDEN)
+@pytest.mark.parametrize("which", [["Plan"], ["Things"], ["Plan", "Things"]], ids="+".join)
+def test_what_is_hidden_stands_where_it_stood_when_the_file_is_opened_again(tmp_path, which, how):
+    """Blender stores no world matrices, and evaluates nothing that is disabled or excluded."""
+    made = rooms()
+    holder = bpy.data.objects.new("holder", None)
+    holder.location, holder.rotation_euler = (3, 1, 2), (0, 0, math.pi / 2)
+    made.append(holder)
+    item = bed()
+    for name, items in (("Plan", made), ("Things", [item])):
+        collection = bpy.data.collections.new(name)
+        bpy.context.scene.collection.children.link(collection)
+        for one in items:
+            if one != holder:
+                bpy.context.scene.collection.objects.unlink(one)
+            collection.objects.link(one)
+    for one in made[:-1]:
+        one.location = one.location - holder.location
+        one.location.rotate(holder.rotation_euler.to_matrix().inverted())
+        one.rotation_euler = (0, 0, -math.pi / 2)
+        one.parent = holder
+    activate(item)
+    propagate()
+    before = poses()
+    assert same(sorted(p[3] for p in before), [6.0, 11.0])
+    for name in which:
+        hide(name, how)
+    transforms = [(o.name, tuple(o.location), tuple(o.scale)) for o in bpy.data.objects if "ga_key" not in o]
+    reload(tmp_path / "hidden.blend")
+    replay()
+    assert same(poses(), before) and not any(i.hide_viewport or i.hide_render for i in results())
+    assert [(o.name, tuple(o.location), tuple(o.scale)) for o in bpy.data.objects if "ga_key" not in o] == transforms
+
+
 @pytest.mark.parametrize("scale", [(2, 2, 2), (2, 0.5, 1)])
 def test_parents_that_are_scaled_and_turned_do_not_matter(scale):
     rooms()
@@ -221,6 +271,37 @@ def test_linked_objects_are_not_edited(tmp_path, operator, settings, kind):
     with pytest.raises(RuntimeError, match=f"{kind} 'Bed' is linked from another file; make it local"):
         getattr(bpy.ops.geoanalogy, operator)(EXEC, True, **settings)
     assert dict(item.items()) == before
+
+
+@pytest.mark.parametrize(
+    ("operator", "settings"), [("set_label", {"label": "sofa"}), ("set_footprint", {"kind": "box"}), ("set_target", {})]
+)
+def test_overrides_are_not_edited(tmp_path, operator, settings):
+    """What is written to them is gone when the file is opened again."""
+    path = linked_library(tmp_path)
+    with bpy.data.libraries.load(str(path), link=True) as (_, here):
+        here.objects = ["Bed"]
+    bpy.context.scene.collection.objects.link(here.objects[0])
+    item = activate(here.objects[0].override_create(remap_local_usages=True))
+    before = dict(item.items())
+    with pytest.raises(RuntimeError, match="object 'Bed' overrides one of another file"):
+        getattr(bpy.ops.geoanalogy, operator)(EXEC, True, **settings)
+    assert dict(item.items()) == before
+
+
+def test_overrides_are_propagated(tmp_path):
+    path = linked_library(tmp_path)
+    with bpy.data.libraries.load(str(path), link=True) as (_, here):
+        here.objects = ["Bed"]
+    rooms()
+    bpy.context.scene.collection.objects.link(here.objects[0])
+    activate(here.objects[0].override_create(remap_local_usages=True))
+    propagate()
+    before = poses()
+    assert len(before) == 2
+    reload(tmp_path / "user.blend")
+    replay()
+    assert same(poses(), before)
 
 
 def test_results_come_back_with_a_library_that_was_missing(tmp_path):

@@ -34,11 +34,13 @@ def pose_of(item: bpy.types.Object, plane: Plane) -> Pose:
     Raises
     ------
     InputError
-        Where its x axis stands on the plane.
+        Where its x axis stands on the plane, or its scale is 0.
     """
     matrix = np.array(item.matrix_world)
     x, y, _ = plane.to_plane([matrix[:3, 3]])[0]
     axis = plane.matrix[:3, :3].T @ matrix[:3, 0]
+    if not axis.any():
+        raise InputError(f"object {item.name!r} has no size, since its scale is 0; give it another")
     if np.hypot(axis[0], axis[1]) <= PARALLEL * np.linalg.norm(axis):
         raise InputError(f"object {item.name!r} has its x axis upright on the plan; turn it, x is where it faces")
     return Pose((x, y), float(np.arctan2(axis[1], axis[0])))

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ...errors import InputError
 from .. import names
+from ..linked import own_copy
 from ..reading.curves import shown_drawings
 from ..reading.planes import Plane
 
@@ -115,7 +116,7 @@ def carried(item: bpy.types.Object, places: Places, source: Plane, plane: Plane,
     -------
     bpy.types.Object
     """
-    made = item.copy()
+    made = own_copy(item)
     made.name = name
     made.parent = None
     made.animation_data_clear()

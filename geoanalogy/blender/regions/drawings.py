@@ -12,6 +12,7 @@ from ...tolerances import LARGEST_COORDINATE
 from .. import names
 from ..reading.curves import curve_lines, stroke_lines
 from ..reading.planes import FLAT, PARALLEL, Plane, extent
+from ..reading.whereabouts import up_to_date
 
 Array = NDArray[np.float64]
 
@@ -78,7 +79,7 @@ def read_drawn_lines(context: bpy.types.Context) -> DrawnLines:
     InputError
         Where there are no lines, a coordinate is not finite, or the drawing is not flat; naming the object.
     """
-    context.view_layer.update()
+    up_to_date(context)
     items = drawing_objects(context)
     drawn = [(item, line) for item in items for line in lines_of(item)]
     if not drawn:

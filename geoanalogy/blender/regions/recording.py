@@ -196,11 +196,14 @@ def image_steps(
     Raises
     ------
     InputError
-        Where there is no image, or the node is no region transfer.
+        Where there is no image, it cannot be read, or the node is no region transfer.
     """
     require_transfer(node)
     if image is None:
         raise InputError("there is no image; choose one that is painted for the query")
+    if not all(image.size):
+        where = f" from {image.filepath!r}" if image.filepath else ""
+        raise InputError(f"the image {image.name!r} cannot be read{where}; choose one that is there")
     drawn = read_drawn_lines(context)
     operation = engine_node(node).operation
     if width > 0.0:

@@ -163,6 +163,8 @@ def swap_with_source(tree: bpy.types.NodeTree, node: bpy.types.Node) -> None:
         Where it has no source, or several, or shares it: then there is no order to change.
     """
     sources = sources_of(node)
+    if not sources:
+        raise InputError(f"the operation {node.name!r} follows on none; it is the first already")
     if len(sources) != 1:
         raise InputError(f"the operation {node.name!r} does not follow on a single one; relink it in the node editor")
     source = sources[0][0]

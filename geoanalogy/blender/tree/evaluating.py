@@ -24,6 +24,7 @@ from ...progress import Stepper, within
 from .. import names
 from ..reading.ground import Ground, only_in, read_grounds
 from ..reading.planes import Plane
+from ..reading.whereabouts import up_to_date
 from ..writing.bending import Bender
 from ..writing.instances import is_instance, write_results
 from .proposals import write_proposals
@@ -208,8 +209,7 @@ def read_surroundings(
         For what cannot be used, naming the object or the operation.
     """
     scene = context.scene
-    context.view_layer.update()
-    depsgraph = context.evaluated_depsgraph_get()
+    depsgraph = up_to_date(context)
     tree = tree_of(scene)
     without = examples_of(tree) | {item.name for item in items}
     if builds(tree):

@@ -12,6 +12,7 @@ from ...operations.tree import OperationsTree
 from .. import names
 from ..reading.ground import Ground, read_grounds
 from ..reading.planes import Plane
+from ..reading.whereabouts import up_to_date
 from ..writing.bending import Bender
 from ..writing.instances import write_results
 from .proposals import read_proposals
@@ -135,8 +136,7 @@ def stored_layout(scene: bpy.types.Scene, node: bpy.types.Node) -> list[tuple[Gr
     InputError
         Where the ground cannot be read.
     """
-    bpy.context.view_layer.update()
-    grounds = read_grounds(scene, bpy.context.evaluated_depsgraph_get(), examples_of(node.id_data))
+    grounds = read_grounds(scene, up_to_date(bpy.context), examples_of(node.id_data))
     chosen = grounds if works_everywhere(node) else [ground_for(grounds, plane_of(node))]
     engine = engine_tree(ordered_nodes(node.id_data))
     return [(ground, stored_layouts(engine, node.id_data, ground)[node.name]) for ground in chosen]

@@ -18,6 +18,7 @@ from ...progress import run
 from ..reading.ground import Ground
 from ..reading.planes import Plane
 from ..reading.shapes import solid_points
+from ..reading.whereabouts import up_to_date
 from .evaluating import Surroundings, incoming_steps, read_surroundings, surroundings_of
 from .refresh import stored_layout
 from .store import builds, works_everywhere
@@ -176,7 +177,7 @@ def sites_before(context: bpy.types.Context, node: bpy.types.Node) -> list[Site]
     InputError
         Where the ground cannot be read.
     """
-    depsgraph = context.evaluated_depsgraph_get()
+    depsgraph = up_to_date(context)
     if not builds(node.id_data):
         return [Site(ground, layout, None, depsgraph) for ground, layout in stored_layout(context.scene, node)]
     own = [a for a in read_surroundings(context) if works_everywhere(node) or node in a.nodes]

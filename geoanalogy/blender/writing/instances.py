@@ -14,7 +14,7 @@ from ...geometry.surface import GROUND
 from ...operations.element import Element
 from .. import names
 from ..holders import ensure_holder_with, holder_with
-from ..linked import is_here
+from ..linked import is_here, own_copy
 from ..reading.footprints import frame_of
 from ..reading.ground import results_collection
 from ..reading.planes import Plane
@@ -125,9 +125,12 @@ def write_results(
         item.select_set(False)
     for count, (e, plane) in enumerate(shown[left:], left + 1):
         one = by_mesh[e.mesh]
-        made = one.item.copy()
+        made = own_copy(one.item)
         made.name = f"{node} {count:03d}"
         made[names.NODE], made[names.KEY] = node, e.key
+        if names.DRAWN not in made:
+            # An example, or a library object that stands aside, may be hidden by itself; its results are not.
+            made.hide_viewport = made.hide_render = False
         _stand(made, e, one.rest, plane)
         if bender is not None:
             bender.bend(made, e, one.rest)
@@ -226,7 +229,7 @@ def _copy_children(
     children: Mapping[str, list[bpy.types.Object]],
 ) -> None:
     for child in children[example.name]:
-        copy = child.copy()
+        copy = own_copy(child)
         copy.parent = made
         copy[names.NODE], copy[names.KEY] = made[names.NODE], made[names.KEY]
         holder.objects.link(copy)
