@@ -59,7 +59,7 @@ def heat_maps(model: ga.PoseModel, scene: ga.Scene, points: int = 5000) -> list[
         target = arrangement_of(scene, room)
         fields = target.fields(spacing, 2 * spacing)
         # And a little around, so that a picture can be cut off at the walls.
-        grid, free = fields.grid, np.flatnonzero(fields.covered(0) | (fields.boundary_distance[0] < 2 * spacing))
+        grid, free = fields.grid, np.flatnonzero(fields.covered(0) | (fields.parent_distance < 2 * spacing))
         sheet = np.full(len(grid), np.nan)
         sheet[free] = 0.0
         for importance in model.importances(target):

@@ -8,8 +8,9 @@ import shapely
 from numpy.typing import NDArray
 
 from ..geometry.polygon import Polygon
-from ..relations.elements import Elements, ElementType
+from ..relations.elements import Elements, ElementType, run_starts
 from ..relations.observation import Observation
+from ..relations.sighting import Sighting
 from ..relations.table import RELATIONS, Directional, Kind, Positional
 
 Array = NDArray[np.float64]
@@ -64,6 +65,9 @@ class Grid:
         return np.rint(offset / self.spacing).astype(np.intp)
 
 
+#: Edges that points are compared with at once.
+MOST_EDGES = 1 << 16
+
 #: Rows for the features of polygons that are gone, in proportion to those in use, at which all are forgotten.
 STALE = 4
 
@@ -91,11 +95,13 @@ class Sheets:
         self._kept: dict[str, Array32] = {}
         self._done: dict[object, tuple[str, ...]] = {}
         self._covered: dict[object, NDArray[np.bool_]] = {}
+        self._inside: dict[object, tuple[Indices, Array32]] = {}
 
     @property
     def nbytes(self) -> int:
         """Memory held, in bytes."""
-        return sum(v.nbytes for v in self._kept.values()) + sum(v.nbytes for v in self._covered.values())
+        inside = (v for pair in self._inside.values() for v in pair)
+        return sum(v.nbytes for held in (self._kept.values(), self._covered.values(), inside) for v in held)
 
     def forget_gone(self, polygons: Sequence[Polygon]) -> None:
         """Forget everything, where most of it is about other polygons and some of these are not there yet.
@@ -206,6 +212,47 @@ class Sheets:
         if kept is None:
             kept = self._covered[polygon.content] = shapely.intersects_xy(polygon.shape, *self.grid.points.T)
         return kept
+
+    def inside(self, polygons: Sequence[Polygon]) -> list[tuple[Indices, Array32]]:
+        """The points that polygons cover, and how deep inside they are.
+
+        Parameters
+        ----------
+        polygons : sequence of Polygon
+
+        Returns
+        -------
+        list of (ndarray of shape (n,), ndarray of shape (n,))
+            Of each polygon its points, and their distances from its boundary in scene units.
+        """
+        missing = [p for p in dict.fromkeys(polygons) if p.content not in self._inside]
+        points = [self._within(p) for p in missing]
+        if missing:
+            elements = Elements.of(missing)
+            owner = np.arange(len(missing)).repeat([len(at) for at in points])
+            at = np.concatenate(points)
+            edges = np.bincount(elements.edge_polygon, minlength=len(missing))[owner].cumsum()
+            depth = np.empty(len(at), dtype=np.float32)
+            for part in np.split(np.arange(len(at)), run_starts(edges // MOST_EDGES)[1:]):
+                mine = elements.take(ElementType.POLYGON, owner[part])
+                seen = Sighting(mine, ElementType.POLYGON, *self.grid.points[at[part]].T)
+                depth[part] = seen.boundary.distance[:, 0]
+            ends = np.cumsum([len(at) for at in points])[:-1]
+            for polygon, where, deep in zip(missing, points, np.split(depth, ends), strict=True):
+                self._inside[polygon.content] = where, deep
+        return [self._inside[p.content] for p in polygons]
+
+    def _within(self, polygon: Polygon) -> Indices:
+        """The points that a polygon covers, of which only those in its box are looked at."""
+        low, high = polygon.bounds.reshape(2, 2)
+        first = np.maximum(np.floor((low - self.grid.origin) / self.grid.spacing), 0).astype(np.intp)
+        last = np.floor((high - self.grid.origin) / self.grid.spacing).astype(np.intp) + 2
+        columns = np.arange(first[0], min(last[0], self.grid.columns))
+        rows = np.arange(first[1], min(last[1], self.grid.rows))
+        at = (rows[:, None] * self.grid.columns + columns).ravel()
+        covered = shapely.intersects_xy(polygon.shape, *self.grid.points[at].T)
+        within: Indices = at[covered]
+        return within
 
 
 def _as_slice(rows: Indices) -> Indices | slice:
@@ -344,11 +391,26 @@ class Fields:
         return self._kept[relation.directional.name].ravel().take(index)
 
     @cached_property
-    def boundary_distance(self) -> Array32:
-        """Distance of each point from each polygon's boundary; shape (polygons, points)."""
+    def parent_distance(self) -> Array32:
+        """Distance of each point from the boundary of the arrangement's parent; shape (points,)."""
         relation = RELATIONS["boundary distance"]
-        self.evaluate([relation])
-        return self._kept[f"{relation.name} value"][self._features[ElementType.POLYGON]]
+        self.evaluate([relation], (), [0])
+        return self._kept[f"{relation.name} value"][self._features[ElementType.POLYGON][0]]
+
+    def inside(self, polygons: Collection[int]) -> list[tuple[Indices, Array32]]:
+        """The points that polygons of the arrangement cover, and how deep inside they are.
+
+        Parameters
+        ----------
+        polygons : collection of int
+            Their numbers.
+
+        Returns
+        -------
+        list of (ndarray of shape (n,), ndarray of shape (n,))
+            Of each polygon its points, and their distances from its boundary in scene units.
+        """
+        return self._sheets.inside([self._polygons[i] for i in polygons])
 
     def covered(self, polygon: int) -> NDArray[np.bool_]:
         """Whether a polygon of the arrangement covers each point; shape (points,).

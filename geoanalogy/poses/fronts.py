@@ -105,6 +105,9 @@ class Fronts:
 
 def _front(parent: Polygon, member: Polygon) -> Array | None:
     """The square before an opening and the opening itself as a ring, shape (4, 2); None for what is no opening."""
+    # Most members are no openings: what is deep in every direction is told at once.
+    if member.area > THIN * parent.size * np.hypot(*(member.bounds[2:] - member.bounds[:2])):
+        return None
     edges = np.roll(member.points, -1, axis=0) - member.points
     length = np.hypot(*edges.T)
     x = edges[length.argmax()] / length.max()

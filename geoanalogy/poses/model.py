@@ -15,7 +15,6 @@ from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..progress import Progress, Stepper, run
 from ..relations.elements import keep_features
-from ..relations.table import RELATIONS
 from .arrangement import Arrangement, arrangement_of
 from .candidates import Candidates, find_candidates
 from .explanation import explain
@@ -210,8 +209,7 @@ class PoseModel:
         share = 1.0 if self._validation.may_jut_out else 2 * JUTTING_SHARE
         margin = share * float(np.hypot(*importance.samples.T).max())
         fields = self._fields(target, spacing, margin)
-        # Together with what the validation asks for: all relations share what the grid's points see.
-        relations = (RELATIONS["boundary distance"], *importance.relations)
+        relations = importance.relations
         if self.query.rigid:
             read = importance.of_strongest(STRONG)
             fields.evaluate(relations, directions_read(read), read.answering)
@@ -305,7 +303,7 @@ class PoseModel:
             return np.zeros(len(position), dtype=bool)
         return np.hypot(*(position - self.pose.position).T) < max(self.reach, self.query.width)
 
-    @property
+    @cached_property
     def reach(self) -> float:
         """Least distance between two results, in scene units: nearer ones are the same place."""
         if self.options.spacing is not None:

@@ -99,7 +99,7 @@ class Validation:
         ----------
         target : Arrangement
         fields : Fields
-            The arrangement's, with the boundary distance evaluated.
+            The arrangement's.
         slack : float
             How far outside or inside, scene units.
 
@@ -110,10 +110,12 @@ class Validation:
         known = self._blocked.get(fields)
         if known is not None and known[0] == slack:
             return known[1]
-        deep = fields.boundary_distance > slack
-        blocked = np.zeros(deep.shape[1], dtype=bool) if self.may_jut_out else ~fields.covered(0) & deep[0]
-        for i, _ in self.obstacles(target):
-            blocked |= fields.covered(i) & deep[i]
+        if self.may_jut_out:
+            blocked = np.zeros(len(fields.grid), dtype=bool)
+        else:
+            blocked = ~fields.covered(0) & (fields.parent_distance > slack)
+        for points, depth in fields.inside([i for i, _ in self.obstacles(target)]):
+            blocked[points[depth > slack]] = True
         self._blocked[fields] = slack, blocked
         return blocked
 
