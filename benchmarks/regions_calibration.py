@@ -10,7 +10,8 @@ and of odd number are the halves. What is shown follows from the exponents by `g
 The exponents in `geoanalogy/regions/evidence.py` are not what this prints. They were fitted in the same way to an
 earlier state of the evidence, and `unmirrored` was lowered from 1.2 to 0.5 by hand afterwards. They stay because what
 either half gives now is no better on the other one: the table has both, line by line. The default threshold was chosen
-on half of the poses of `spine_articulated`, the contrast on the drawings of `sample_blends`.
+on half of the poses of `spine_articulated`, the contrast on the drawings of `sample_blends`, what may be chance on all
+poses, and judged among clutter drawn anew.
 """
 
 from __future__ import annotations
