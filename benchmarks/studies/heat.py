@@ -9,7 +9,7 @@ import geoanalogy as ga
 from geoanalogy.poses.arrangement import arrangement_of
 from geoanalogy.poses.batch import importance_at
 from geoanalogy.poses.candidates import accumulate_in_plane
-from geoanalogy.poses.footprint_candidates import directions
+from geoanalogy.poses.directions import directions
 from geoanalogy.poses.importance import Importance
 
 Array = NDArray[np.float64]

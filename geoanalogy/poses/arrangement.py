@@ -10,8 +10,9 @@ from ..geometry.memory import Memory
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..relations.elements import Elements, ElementType
-from .fields import Fields, Grid, Sheets
+from .fields import Fields
 from .fronts import Fronts
+from .sheets import Grid, Sheets
 
 
 class Arrangement:

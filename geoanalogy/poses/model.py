@@ -17,9 +17,10 @@ from ..progress import Progress, Stepper, run
 from ..relations.elements import keep_features
 from .arrangement import Arrangement, arrangement_of
 from .candidates import Candidates, find_candidates
+from .directions import directions_read
 from .explanation import explain
 from .fields import Fields
-from .footprint_candidates import SLACK, STRONG, directions_read, find_footprint_candidates
+from .footprint_candidates import SLACK, STRONG, find_footprint_candidates
 from .giving_way import FREE, give_way
 from .importance import Importance
 from .kernels import wrap

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from ..relations.elements import Elements, ElementType, first_of, ranges, sizes
 from ..relations.sighting import Sighting
 from ..relations.table import Positional
-from .fields import FAR
 from .kernels import level_set, wrap
 from .part import Part
 from .query import is_length, reference, side, turning
+from .sheets import FAR
 
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]

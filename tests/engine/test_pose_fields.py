@@ -6,8 +6,9 @@ import shapely
 from shapes import CIRCLE, HOLED_ROOM, L_ROOM, STAR, rectangle
 
 from geoanalogy import Polygon
-from geoanalogy.poses import fields
-from geoanalogy.poses.fields import STALE, Fields, Grid, Sheets
+from geoanalogy.poses import sheets as sheets_module
+from geoanalogy.poses.fields import Fields
+from geoanalogy.poses.sheets import STALE, Grid, Sheets
 from geoanalogy.relations.table import RELATIONS
 
 ROOM = Polygon(rectangle(12, 9, (-6, -4)), "room")
@@ -16,7 +17,7 @@ ROOM = Polygon(rectangle(12, 9, (-6, -4)), "room")
 @pytest.mark.parametrize("at_once", [1, 50, 1 << 16])
 def test_points_inside_polygons_and_how_deep_they_are(monkeypatch, at_once):
     """Also of polygons that jut out of the grid, lie outside it, have holes or no point inside."""
-    monkeypatch.setattr(fields, "MOST_EDGES", at_once)
+    monkeypatch.setattr(sheets_module, "MOST_EDGES", at_once)
     sheets = Sheets(Grid(ROOM, 0.25, 1.0))
     hole = HOLED_ROOM[:3] * 0.1 + HOLED_ROOM.mean(axis=0)
     outlines = [
