@@ -8,6 +8,7 @@ run, so that the others need no Blender.
 
 import argparse
 import enum
+import math
 import os
 import signal
 import sys
@@ -102,9 +103,12 @@ def _path_with_suffix(*suffixes: str) -> Callable[[str], Path]:
 
 
 def _fraction(text: str) -> float:
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
     if not 0.0 <= value <= 1.0:
-        raise argparse.ArgumentTypeError(f"{text} should lie between 0 and 1")
+        raise argparse.ArgumentTypeError(f"{text} should be a number between 0 and 1")
     return value
 
 

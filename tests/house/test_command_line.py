@@ -80,7 +80,11 @@ def test_without_a_file_the_open_one_is_replayed(replay):
         (["replay", "in.obj", "--output", "out.blend"], "in.obj should end in .blend"),
         (["replay", "in.blend", "--output", "out.png"], "out.png should end in .blend"),
         (["replay", "in.blend", "--render", "out.blend"], "out.blend should end in .png"),
-        (["replay", "in.blend", "--output", "o.blend", "--threshold", "1.5"], "1.5 should lie between 0 and 1"),
+        (["replay", "in.blend", "--output", "o.blend", "--threshold", "1.5"], "1.5 should be a number between 0 and 1"),
+        (
+            ["replay", "in.blend", "--output", "o.blend", "--threshold", "high"],
+            "high should be a number between 0 and 1",
+        ),
         (["replay", "in.blend", "--output", "o.blend", "--seed", "x"], "invalid int value: 'x'"),
     ],
 )
