@@ -63,8 +63,6 @@ class Example:
         Whether a match lies on the right place.
     wrong : (n,) bool
         Whether it lies on the place of another shape: neither there nor on the query's own.
-    place : (n,) int
-        Number of the place that it lies on.
     error : (n,) float
         Mean error of its mapping in per cent of the diagonal; 0 where only the place is known.
     """
@@ -74,7 +72,6 @@ class Example:
     factors: Array
     right: NDArray[np.bool_]
     wrong: NDArray[np.bool_]
-    place: NDArray[np.intp]
     error: Array
 
 
@@ -112,7 +109,6 @@ def example(
         np.reshape(factors, (-1, len(NAMES))),
         there,
         ~there & (places != 0),
-        places,
         np.asarray(error, dtype=np.float64),
     )
 
@@ -152,9 +148,7 @@ def judged(some: Sequence[Example], exponents: Array) -> list[str]:
         order = np.argsort(-similarity, kind="stable")
         similarity, right, wrong, error = similarity[order], e.right[order], e.wrong[order], e.error[order]
         corners = 1.0 + e.factors[order, NAMES.index("corners")]
-        place = e.place[order]
-        rival = float(similarity[place != place[:1]].max(initial=0.0))
-        above = similarity >= least_shown(similarity, corners, rival, options.threshold, options.contrast)
+        above = similarity >= least_shown(similarity, corners, options.threshold, options.contrast)
         first.append(bool(right[:1].any()))
         shown.append(bool((right & above)[:1].any()))
         clean.append(not (above & wrong).any())

@@ -20,7 +20,7 @@ from .options import RegionOptions
 from .query import Query
 from .refinement import Refined
 from .retraced import retraced, wanting
-from .standing import elsewhere, least_shown
+from .standing import least_shown
 from .transformation import Nodes, TransformationFunction
 
 #: Candidates that are fitted to the end, of each place and in all: usually, and where branches may share a place.
@@ -225,8 +225,7 @@ def matching(
     kept = list(_separate(fits, fitter, options.branches))[: options.most]
     chosen = [fit for fit, _ in kept]
     alike, corners = np.array([(e.similarity, e.met) for _, e in kept]).reshape(-1, 2).T
-    rival = elsewhere(alike, *fitter.places(*_functions(chosen, nodes)))
-    shown = least_shown(alike, corners, rival, options.threshold, options.contrast)
+    shown = least_shown(alike, corners, options.threshold, options.contrast)
     if judge:
         count = sum(measured.similarity >= shown for _, measured in kept[:MOST_SETTLED])
         chosen[:count] = settled(fitter, chosen[:count], judge.guides, judge.similarity)
@@ -254,7 +253,8 @@ class _Judge:
     def weighed(self, fits: list[Fit], again: bool) -> list[tuple[Fit, Evidence]]:
         """Fits with their evidence; `again`: chains are retraced along those that have little."""
         guides = self.guides
-        chained, along = guides.agreement(*_functions(fits, guides.fitter.nodes))
+        unknowns = np.array([f.function.unknowns for f in fits])
+        chained, along = guides.agreement(unknowns, np.array([f.function.mirrored for f in fits]))
         if again:
             weak = wanting(guides.fitter, fits, corners_met(chained, guides.most))
             found = retraced(self.contours, self.region, guides.fitter, [fits[i] for i in weak], self.options.mirrored)
@@ -268,12 +268,6 @@ class _Judge:
     def similarity(self, fits: list[Fit]) -> Floats:
         """How alike the targets of fits are, (k,)."""
         return np.array([measured.similarity for _, measured in self.weighed(fits, again=False)])
-
-
-def _functions(fits: list[Fit], nodes: Nodes) -> tuple[Complex, NDArray[np.bool_]]:
-    """The unknowns of fits, (k, 2m), and which are mirrored, (k,)."""
-    unknowns = np.array([f.function.unknowns for f in fits]).reshape(len(fits), 2 * len(nodes.at))
-    return unknowns, np.array([f.function.mirrored for f in fits], dtype=np.bool_)
 
 
 def _separate(found: list[tuple[Fit, Evidence]], fitter: Fitter, branches: bool) -> Iterator[tuple[Fit, Evidence]]:

@@ -6,12 +6,12 @@ a match stands out so far as it is alike by itself, or much more so than the clu
 belongs together is alike to about one degree: below the widest gap between the similarities of a drawing lies clutter.
 
 And some of what is alike is so by chance: where few corners fall on corners, as many may do so anywhere. What may be
-chance is shown only as the best match, where no other place comes near it.
+chance is shown only as the best match.
 """
 
 import numpy as np
 
-from ..geometry.contours import Complex, Floats
+from ..geometry.contours import Floats
 
 #: Similarity at which a match stands out halfway whatever else there is, and how steeply it does so more and less.
 HALFWAY, STEEP = 0.5, 3.0
@@ -21,10 +21,6 @@ CLUTTER = 0.67
 USUAL, USUAL_WEIGHT = 0.1, 0.5
 #: Evidence of corners, as a share of what is enough, from which on a match is no chance; or its similarity.
 CERTAIN, ALIKE = 0.6, 0.65
-#: Distance of their centres, in extents of the larger one, from which on two matches are at places of their own.
-APART = 0.75
-#: How many times as alike as every other place a match must be that may be chance.
-UNRIVALLED = 1.12
 
 
 def standing(similarity: Floats, every: Floats) -> Floats:
@@ -49,7 +45,7 @@ def standing(similarity: Floats, every: Floats) -> Floats:
     return np.asarray(1.0 - (1.0 - alone) * (1.0 - beside), dtype=np.float64)
 
 
-def least_shown(every: Floats, corners: Floats, rival: float, threshold: float, contrast: float) -> float:
+def least_shown(every: Floats, corners: Floats, threshold: float, contrast: float) -> float:
     """Least similarity of a match that is shown.
 
     Parameters
@@ -58,8 +54,6 @@ def least_shown(every: Floats, corners: Floats, rival: float, threshold: float, 
         The best similarity of every place of the drawing, descending.
     corners : (n,) float
         Their evidence of corners, as a share of what is enough.
-    rival : float
-        The best similarity at another place than that of the best (`elsewhere`).
     threshold : float
         How far a match must stand out, 0 to 1.
     contrast : float
@@ -82,32 +76,11 @@ def least_shown(every: Floats, corners: Floats, rival: float, threshold: float, 
             low = middle
         else:
             high = middle
-    return max(low, middle_of_gap(every), above_chance(every, corners, rival))
+    return max(low, middle_of_gap(every), above_chance(every, corners))
 
 
-def elsewhere(every: Floats, centre: Complex, extent: Floats) -> float:
-    """The best similarity at another place than that of the best match: parts of it are no rivals.
-
-    Parameters
-    ----------
-    every : (n,) float
-        Similarities, descending.
-    centre : (n,) complex
-        Centres of the matches.
-    extent : (n,) float
-        Their extents.
-
-    Returns
-    -------
-    float
-        0 where there is none.
-    """
-    apart = np.abs(centre - centre[:1]) >= APART * np.maximum(extent, extent[:1])
-    return float(every[apart].max(initial=0.0))
-
-
-def above_chance(every: Floats, corners: Floats, rival: float) -> float:
-    """The similarity below which the first match lies that may be chance.
+def above_chance(every: Floats, corners: Floats) -> float:
+    """The similarity below which the first match lies that may be chance, and is not the best.
 
     Parameters
     ----------
@@ -115,22 +88,18 @@ def above_chance(every: Floats, corners: Floats, rival: float) -> float:
         Descending.
     corners : (n,) float
         Evidence of corners, as a share of what is enough.
-    rival : float
-        The best similarity at another place than that of the best (`elsewhere`).
 
     Returns
     -------
     float
-        Where it is the best, how alike it would have to be beside the others; else the middle between it and the one
-        before. 0 where none may be chance.
+        The middle between it and the one before; 0 where none may be chance.
     """
-    needed = np.full(len(every), UNRIVALLED * every[0])
-    needed[0] = UNRIVALLED * rival
-    chance = (corners < CERTAIN) & (every < ALIKE) & (every < needed)
+    chance = (corners < CERTAIN) & (every < ALIKE)
+    chance[:1] = False
     if not chance.any():
         return 0.0
     first = int(chance.argmax())
-    return float(every[first - 1 : first + 1].mean() if first else needed[0])
+    return float(every[first - 1 : first + 1].mean())
 
 
 def middle_of_gap(every: Floats) -> float:

@@ -11,9 +11,7 @@ from geoanalogy.regions.standing import (
     ALIKE,
     CERTAIN,
     HALFWAY,
-    UNRIVALLED,
     above_chance,
-    elsewhere,
     least_shown,
     middle_of_gap,
     standing,
@@ -41,7 +39,7 @@ def test_the_same_similarity_stands_out_of_weak_clutter_more_than_of_strong():
 @given(SIMILARITIES, st.floats(0.01, 0.99), st.floats(0.0, 0.99))
 def test_what_is_shown_stands_out_and_what_is_not_does_not(values, threshold, contrast):
     every = np.sort(values)[::-1]
-    least = least_shown(every, np.ones(len(every)), 0.0, threshold, contrast)
+    least = least_shown(every, np.ones(len(every)), threshold, contrast)
     found = standing(every, every)
     needed = max(threshold, contrast * found[0])
     assert (found[every >= least] >= needed - 1e-6).all()
@@ -61,7 +59,7 @@ def test_what_is_shown_stands_out_and_what_is_not_does_not(values, threshold, co
 )
 def test_what_lies_below_the_widest_gap_is_clutter(similarities, shown):
     every = np.array(similarities)
-    assert (every >= least_shown(every, np.ones(len(every)), every[-1], 0.2, 0.0)).sum() == shown
+    assert (every >= least_shown(every, np.ones(len(every)), 0.2, 0.0)).sum() == shown
 
 
 def test_a_threshold_in_a_gap_lies_in_its_middle():
@@ -70,45 +68,34 @@ def test_a_threshold_in_a_gap_lies_in_its_middle():
 
 
 def test_all_is_shown_without_threshold_and_contrast():
-    assert least_shown(np.array([0.7, 0.01, 0.0]), np.zeros(3), 0.01, 0.0, 0.0) == 0.0
-    assert least_shown(np.zeros(0), np.zeros(0), 0.0, 0.5, 0.5) == 0.0
+    assert least_shown(np.array([0.7, 0.01, 0.0]), np.zeros(3), 0.0, 0.0) == 0.0
+    assert least_shown(np.zeros(0), np.zeros(0), 0.5, 0.5) == 0.0
 
 
 @pytest.mark.parametrize(
-    ("similarities", "corners", "elsewhere", "shown"),
+    ("similarities", "corners", "shown"),
     [
-        ([0.5, 0.4, 0.3], [0.3, 0.2, 0.1], 0.4, 1),
-        ([0.5, 0.48, 0.3], [0.3, 0.2, 0.1], 0.48, 0),
-        ([0.5, 0.48, 0.3], [0.3, 0.2, 0.1], 0.3, 1),
-        ([0.5, 0.48, 0.3], [1.0, 0.2, 0.1], 0.48, 1),
-        ([0.5, 0.48, 0.3], [1.0, 0.8, 0.1], 0.48, 2),
-        ([0.5, 0.48, 0.45], [1.0, 0.2, 1.0], 0.48, 1),
-        ([0.9, 0.88, 0.86], [0.1, 0.1, 0.1], 0.88, 3),
-        ([0.3], [0.0], 0.0, 1),
+        ([0.5, 0.4, 0.3], [0.3, 0.2, 0.1], 1),
+        ([0.5, 0.48, 0.3], [1.0, 0.2, 0.1], 1),
+        ([0.5, 0.48, 0.3], [0.1, 0.8, 0.1], 2),
+        ([0.5, 0.48, 0.45], [1.0, 0.2, 1.0], 1),
+        ([0.9, 0.88, 0.86], [0.1, 0.1, 0.1], 3),
+        ([0.3], [0.0], 1),
     ],
 )
-def test_what_may_be_chance_is_shown_where_nothing_comes_near(similarities, corners, elsewhere, shown):
+def test_what_may_be_chance_is_shown_only_as_the_best(similarities, corners, shown):
     every = np.array(similarities)
-    assert (every >= above_chance(every, np.array(corners), elsewhere)).sum() == shown
+    assert (every >= above_chance(every, np.array(corners))).sum() == shown
 
 
-@given(SIMILARITIES, st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.randoms(use_true_random=False))
-def test_what_is_shown_is_certain_or_alike_or_the_best_by_far(values, threshold, elsewhere, random):
+@given(SIMILARITIES, st.floats(0.0, 1.0), st.randoms(use_true_random=False))
+def test_what_is_shown_is_certain_or_alike_or_the_best(values, threshold, random):
     every = np.sort(values)[::-1]
     corners = np.array([random.random() for _ in values])
-    least = least_shown(every, corners, elsewhere, max(threshold, 0.01), 0.0)
-    shown = every >= least
-    unlikely = (corners >= CERTAIN) | (every >= ALIKE)
-    unlikely[0] |= every[0] >= UNRIVALLED * elsewhere
-    assert (unlikely | ~shown | np.isin(every, every[unlikely])).all()
-
-
-def test_parts_of_one_place_are_no_rivals():
-    every, extent = np.array([0.5, 0.45, 0.4]), np.array([1.0, 0.4, 1.0])
-    assert elsewhere(every, np.array([0.0, 0.5 + 0.3j, 3.0]), extent) == pytest.approx(0.4)
-    assert elsewhere(every, np.array([0.0, 0.9j, 3.0]), extent) == pytest.approx(0.45)
-    assert elsewhere(every[:1], np.zeros(1), extent[:1]) == 0.0
-    assert elsewhere(every[:0], np.zeros(0), extent[:0]) == 0.0
+    least = least_shown(every, corners, max(threshold, 0.01), 0.0)
+    no_chance = (corners >= CERTAIN) | (every >= ALIKE)
+    no_chance[0] = True
+    assert (no_chance | (every < least) | np.isin(every, every[no_chance])).all()
 
 
 def test_copies_of_what_has_no_corners_are_no_chance():
