@@ -20,7 +20,7 @@ from .guides import Guides
 #: How far chains and alignments must agree with a fit, and how many are fitted beside it.
 LEAST_AGREEING, MOST = 0.25, 4
 #: Stiffness of the functions at first and round by round: (strain, bend) weights.
-START, ROUNDS = (0.03, 0.1), ((0.03, 0.1), (0.01, 0.1), (0.01, 0.1))
+START, ROUNDS = (0.03, 0.1), ((0.03, 0.1), (0.01, 0.1))
 #: Weight of one scale beside a mean squared distance of 1.
 RIGIDITY = 0.1
 #: Near the end lines are where they belong, and a sample without a counterpart is dearer than while fitting.
