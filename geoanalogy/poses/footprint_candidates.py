@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.elements import ElementType, ranges
+from ..relations.elements import ElementType
+from ..relations.runs import ranges
 from ..relations.table import Kind, Positional
 from .candidates import MAXIMA, Candidates
 from .directions import directions

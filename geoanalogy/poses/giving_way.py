@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..relations.elements import run_starts
+from ..relations.runs import run_starts
 from .batch import Batch
 from .candidates import Candidates
 from .importance import Importance

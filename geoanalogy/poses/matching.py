@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.elements import ElementType, first_of, ranges, run_starts, sizes
+from ..relations.elements import ElementType
+from ..relations.runs import first_of, ranges, run_starts, sizes
 from ..relations.table import BOUNDARY_ANGLE, SEGMENT_ANGLE, Kind, Positional
 from .arrangement import Arrangement
 from .options import PoseOptions

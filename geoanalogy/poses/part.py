@@ -7,7 +7,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.elements import Elements, ElementType, first_of
+from ..relations.elements import Elements, ElementType
+from ..relations.runs import first_of
 from ..relations.table import Positional
 from .importance import Importance
 from .query import is_length

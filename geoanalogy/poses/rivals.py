@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.elements import run_starts
+from ..relations.runs import run_starts
 from .batch import Batch
 from .importance import Importance
 

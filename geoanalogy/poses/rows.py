@@ -6,7 +6,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.elements import Elements, ElementType, first_of, ranges, sizes
+from ..relations.elements import Elements, ElementType
+from ..relations.runs import first_of, ranges, sizes
 from ..relations.sighting import Sighting
 from ..relations.table import Positional
 from .kernels import level_set, wrap

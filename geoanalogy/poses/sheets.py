@@ -8,8 +8,9 @@ import shapely
 from numpy.typing import NDArray
 
 from ..geometry.polygon import Polygon
-from ..relations.elements import Elements, ElementType, run_starts
+from ..relations.elements import Elements, ElementType
 from ..relations.observation import Observation
+from ..relations.runs import run_starts
 from ..relations.sighting import Sighting
 from ..relations.table import Directional, Kind, Positional
 

@@ -9,7 +9,7 @@ import shapely
 from numpy.typing import NDArray
 
 from ..geometry.polygon import Polygon
-from ..relations.elements import run_starts
+from ..relations.runs import run_starts
 from ..tolerances import TOUCHING_SHARE
 from .arrangement import Arrangement
 from .fields import Fields

@@ -39,8 +39,8 @@ def wanting(fitter: Fitter, fits: list[Fit], met: Floats) -> Indices:
     -------
     (k,) int
     """
-    unknowns, flipped = (np.array([getattr(f.function, name) for f in fits]) for name in ("unknowns", "mirrored"))
-    centre, extent = fitter.places(unknowns, flipped)
+    unknowns = np.array([f.function.unknowns for f in fits])
+    centre, extent = fitter.places(unknowns, np.array([f.function.mirrored for f in fits]))
     near = np.abs(centre[:, None] - centre) < PLACE * np.minimum(extent[:, None], extent)
     return np.flatnonzero(~(near & (met >= 1.0)).any(1))
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..geometry.features import Corner, Segment, features_by_ring
 from ..geometry.polygon import Polygon, main_directions
 from ..tolerances import LEAST_NOISY_TURNS, SMOOTH_TURN
+from .runs import first_of
 
 Array = NDArray[np.float64]
 
@@ -125,11 +126,9 @@ def extract(polygons: Sequence[Polygon]) -> dict[str, Any]:
     edge_vector = np.concatenate(vectors) if vectors else np.zeros((0, 2))
     edge_length = np.hypot(edge_vector[:, 0], edge_vector[:, 1])
     edge_segment = np.repeat(np.arange(len(segments)), per_segment)
-    edges = np.array(per_segment, dtype=np.intp)
-    first_edge = np.cumsum(edges) - edges
+    first_edge = first_of(np.array(per_segment, dtype=np.intp))
     segment_length = np.add.reduceat(edge_length, first_edge) if segments else np.zeros(0)
-    edges = np.array(per_ring, dtype=np.intp)
-    first_of_ring = np.cumsum(edges) - edges
+    first_of_ring = first_of(np.array(per_ring, dtype=np.intp))
     ring_length = np.repeat(np.add.reduceat(edge_length, first_of_ring), per_ring) if segments else np.zeros(0)
     arc = np.cumsum(edge_length) - edge_length
     offset = arc - arc[first_edge][edge_segment]

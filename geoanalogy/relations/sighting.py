@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..tolerances import ZERO_LENGTH
-from .elements import Elements, ElementType, Indices, run_starts
+from .elements import Elements, ElementType, Indices
 from .observation import Array, Directions, Nearest, Observation, length
+from .runs import run_starts
 
 #: Stands for the points of an observation: there is one of each element.
 _ONE = np.zeros((1, 2))
