@@ -7,7 +7,8 @@ both can stop between two steps.
 from collections.abc import Callable, Generator
 from typing import TypeVar
 
-from .errors import Cancelled
+from .arguments import shown
+from .errors import Cancelled, InputError
 
 Result = TypeVar("Result")
 Step = tuple[float, str]
@@ -32,6 +33,8 @@ def run(stepper: Stepper[Result], progress: Progress | None = None) -> Result:
 
     Raises
     ------
+    InputError
+        For a `progress` that cannot be called.
     Cancelled
         When `progress` returned False.
 
@@ -44,6 +47,8 @@ def run(stepper: Stepper[Result], progress: Progress | None = None) -> Result:
     >>> run(count())
     'counted'
     """
+    if progress is not None and not callable(progress):
+        raise InputError(f"progress is {shown(progress)}; give a callable (fraction, text) -> bool, or leave it out")
     while True:
         try:
             fraction, text = next(stepper)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..arguments import given, path_of, real, shown
 from ..errors import InputError
 from ..geometry.scene import Scene
 from . import dxf, geojson, svg
@@ -50,9 +51,13 @@ def read_scene(path: str | os.PathLike[str], *, label: str | None = None, scale:
     ...     read_scene(f"{folder}/plan.geojson").polygons[0].label
     'attic'
     """
-    path = Path(path)
-    if not np.isfinite(scale) or scale <= 0:
-        raise InputError(f"the scale {scale} is no scale; give how many scene units a unit of the file is, such as 50")
+    path = path_of(path)
+    if not 0 < real(scale) < np.inf:
+        raise InputError(
+            f"the scale {shown(scale)} is no scale; give how many scene units a unit of the file is, such as 50"
+        )
+    if label is not None:
+        given(label, str, "label", "the name of the property that holds the labels")
     outlines = _outlines(path, label)
     if scale != 1.0:
         outlines = [Outline(o.where, [r * scale for r in o.rings], o.properties) for o in outlines]
@@ -86,7 +91,7 @@ def read_parcels(
     InputError
         Where the file or the table itself cannot be read, or the coordinates are degrees.
     """
-    path = Path(path)
+    path = path_of(path)
     rules = read_table(TABLE if table is None else table)
     outlines = _outlines(path, label, rules)
     check_unit(path.name, outlines)
@@ -113,7 +118,7 @@ def read_drawing(path: str | os.PathLike[str]) -> list[Points]:
     InputError
         Names the file, the shape and the reason.
     """
-    path = Path(path)
+    path = path_of(path)
     if path.suffix.lower() != ".svg":
         raise InputError(f"{path.name} is no drawing that is read; give an .svg file")
     strokes = svg.read_strokes(_content(path), path.name)
@@ -136,7 +141,8 @@ def write_scene(scene: Scene, path: str | os.PathLike[str]) -> None:
     InputError
         For another suffix, and where the file cannot be written.
     """
-    path = Path(path)
+    given(scene, Scene, "the scene", "Scene([polygon, …])")
+    path = path_of(path)
     if path.suffix.lower() not in (".geojson", ".json"):
         raise InputError(f"{path.name} is in no format that is written; give a .geojson file")
     part = path.with_name(path.name + ".part")

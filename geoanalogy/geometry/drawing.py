@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import listed, points_of, real, shown
 from ..errors import InputError
 from ..tolerances import LARGEST_COORDINATE, MOST_LINES, ZERO_LENGTH
 from .contours import Complex, Contours, surrounding_circle
@@ -42,8 +43,9 @@ class Drawing:
     """
 
     def __init__(self, lines: Sequence[ArrayLike], *, smoothing: float = 0.0):
-        if not np.isfinite(smoothing) or smoothing < 0.0:
-            raise InputError(f"The smoothing of the drawing is {smoothing}: give a length of zero or more.")
+        if not 0.0 <= real(smoothing) < np.inf:
+            raise InputError(f"The smoothing of the drawing is {shown(smoothing)}: give a length of zero or more.")
+        lines = listed(lines, "what the drawing is made of", "a list of lines")
         if len(lines) > MOST_LINES:
             raise InputError(f"The drawing has {len(lines)} lines: join or remove lines until {MOST_LINES} are left.")
         kept = [z for z in (_line(points, number) for number, points in enumerate(lines, 1)) if len(z) > 1]
@@ -61,7 +63,7 @@ class Drawing:
 
     def into_frame(self, points: ArrayLike) -> Complex:
         """Scene points (n, 2) as complex numbers in the drawing's frame, (n,)."""
-        p = np.asarray(points, float).reshape(-1, 2)
+        p = points_of(points, "the points").reshape(-1, 2)
         return (p[:, 0] + 1j * p[:, 1] - self.centre) / self.size
 
     def out_of_frame(self, z: Complex) -> np.ndarray:
@@ -79,7 +81,7 @@ def _line(points: ArrayLike, number: int) -> Complex:
     """A polyline as complex numbers without consecutive duplicates; empty where it has no length."""
     try:
         p = np.asarray(points, float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError(f"Line {number} of the drawing is no list of points: give pairs of numbers.") from None
     if p.ndim != 2 or p.shape[1] != 2:
         raise InputError(f"Line {number} of the drawing has the shape {p.shape}: give points as (n, 2).")

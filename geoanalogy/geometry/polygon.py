@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import listed, real, shown
 from ..errors import InputError
 from ..tolerances import LARGEST_COORDINATE, ZERO_LENGTH
 from .persistence import ClearRing, clear_ring
@@ -215,13 +216,16 @@ class Polygon:
         self.id = None if id is None else str(id)
         self.parent = None if parent is None else str(parent)
         name = f"polygon {self.id!r}" if self.id is not None else f"a polygon labelled {self.label!r}"
-        if orientation is not None and not np.isfinite(orientation):
-            raise InputError(f"{name} has an orientation that is not finite; give radians or leave it out")
+        if orientation is not None and not np.isfinite(real(orientation)):
+            raise InputError(
+                f"{name} has the orientation {shown(orientation)}, which is not finite; give radians or leave it out"
+            )
         self.orientation = None if orientation is None else float(orientation)
         self.points, edges = clean_ring(points, name)
         self.points.flags.writeable = False
         self.segment_labels = ("",) * len(edges)
         if segment_labels is not None:
+            segment_labels = listed(segment_labels, f"what {name} has as segment labels", "a label per edge")
             count = len(np.asarray(points))
             closed = edges.max() < count - 1
             if not count - closed <= len(segment_labels) <= count:
@@ -229,7 +233,8 @@ class Polygon:
                     f"{name} has {len(segment_labels)} segment labels for {count - closed} edges; give one per edge"
                 )
             self.segment_labels = tuple("" if segment_labels[i] is None else str(segment_labels[i]) for i in edges)
-        clean = (clean_ring(h, f"hole {i} of {name}")[0] for i, h in enumerate(holes))
+        rings = listed(() if holes is None else holes, f"what {name} has as holes", "a list of rings")
+        clean = (clean_ring(h, f"hole {i} of {name}")[0] for i, h in enumerate(rings))
         self.holes = tuple(np.roll(ring[::-1], 1, axis=0) for ring in clean)
         if self.holes and not self.shape.is_valid:
             raise InputError(

@@ -1,10 +1,11 @@
 """Rectangles: the bounding boxes that placements are made of (section 5.2)."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import real, shown
 from ..errors import InputError
 from ..tolerances import LARGEST_COORDINATE
 
@@ -40,11 +41,11 @@ class Rectangle:
     angle: float = 0.0
 
     def __post_init__(self) -> None:
-        values = {name: float(value) for name, value in asdict(self).items()}
-        for name, value in values.items():
+        for name in (f.name for f in fields(self)):
+            value = real(given := getattr(self, name))
+            if not np.isfinite(value):
+                raise InputError(f"the {name} of a rectangle is {shown(given)}, which is not finite; give five numbers")
             object.__setattr__(self, name, value)
-        if not np.isfinite(list(values.values())).all():
-            raise InputError(f"{self!r} has a value that is not finite (NaN or infinity); give five finite numbers")
         if max(abs(self.x), abs(self.y)) > LARGEST_COORDINATE:
             raise InputError(
                 f"{self!r} lies more than {LARGEST_COORDINATE:g} units from the origin; move the scene near the origin"

@@ -11,10 +11,11 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import listed, points_of, real, shown
 from ..errors import InputError
 from .hierarchy import Overlaps, find_overlaps, find_parents
 from .memory import Memory
-from .polygon import Polygon
+from .polygon import Polygon, clean_ring
 
 
 class Scene:
@@ -56,15 +57,18 @@ class Scene:
     def __init__(
         self, polygons: Iterable[Polygon], offset: tuple[float, float] = (0.0, 0.0), memory: Memory | None = None
     ) -> None:
-        given = tuple(polygons)
-        for p in given:
+        every = listed(polygons, "what the scene is made of", "a list of polygons")
+        for p in every:
             if not isinstance(p, Polygon):
                 raise InputError(
                     f"a scene is made of polygons, not of {type(p).__name__}; wrap the ring in Polygon(points, label=…)"
                 )
-        self.polygons: tuple[Polygon, ...] = _with_unique_ids(given)
+        moved = [real(v) for v in listed(offset, "the scene's offset", "x and y")]
+        if len(moved) != 2 or not np.isfinite(moved).all():
+            raise InputError(f"the scene's offset is {shown(offset)}; give finite x and y")
+        self.polygons: tuple[Polygon, ...] = _with_unique_ids(every)
         self._index: dict[str, int] = {str(p.id): i for i, p in enumerate(self.polygons)}
-        self.offset = (float(offset[0]), float(offset[1]))
+        self.offset = (moved[0], moved[1])
         self.memory = Memory() if memory is None else memory
         #: A scene whose polygons are the first of this one's; and of the latest scene that was grown from this one, the
         #: polygons and their overlaps: what is placed step by step is compared once.
@@ -116,9 +120,11 @@ class Scene:
         InputError
             Where the scene has none of that id.
         """
-        if id not in self._index:
-            raise InputError(f"the scene has no polygon {id!r}; it has {len(self.polygons)} polygons, check the id")
-        return self.polygons[self._index[id]]
+        if str(id) not in self._index:
+            raise InputError(
+                f"the scene has no polygon {shown(id)}; it has {len(self.polygons)} polygons, check the id"
+            )
+        return self.polygons[self._index[str(id)]]
 
     def subset(self, ids: Iterable[str]) -> list[Polygon]:
         """The polygons of some ids, in the scene's order.
@@ -172,7 +178,10 @@ class Scene:
         -------
         Polygon or None
         """
-        return self._smallest(self._tree.query(shapely.Point(np.asarray(point, float)), predicate="intersects"))
+        place = points_of(point, "the coordinates of the point")
+        if place.size != 2:
+            raise InputError(f"the point is {shown(point)}; give its x and y")
+        return self._smallest(self._tree.query(shapely.Point(place.ravel()), predicate="intersects"))
 
     def parent_of_shape(self, ring: ArrayLike, share: float) -> Polygon | None:
         """The smallest polygon that holds a share of a ring's area: the parent of an object by its footprint.
@@ -191,7 +200,9 @@ class Scene:
         -------
         Polygon or None
         """
-        shape = shapely.Polygon(np.asarray(ring, float))
+        if not 0 <= real(share) <= 1:
+            raise InputError(f"the share of the outline is {shown(share)}; give a number from 0 to 1")
+        shape = shapely.Polygon(clean_ring(ring, "the outline")[0])
         near = self._tree.query(shape)
         held = shapely.area(shapely.intersection(np.array([self.polygons[i].shape for i in near], dtype=object), shape))
         holding = near[held >= share * shape.area]
@@ -223,7 +234,8 @@ class Scene:
         -------
         Scene
         """
-        scene = Scene([*self.polygons, *polygons], self.offset, self.memory)
+        more = listed(polygons, "what is added to the scene", "a list of polygons")
+        scene = Scene([*self.polygons, *more], self.offset, self.memory)
         scene._grown_from = self
         return scene
 

@@ -5,9 +5,9 @@ import json
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
+from ..arguments import given, is_whole, listed, path_of, shown
 from ..errors import InputError
 from ..geometry.mesh import Mesh
 from ..geometry.scene import Scene
@@ -54,10 +54,12 @@ class OperationsTree:
     """
 
     def __init__(self, nodes: Iterable[Node] = (), evaluations: Evaluations | None = None) -> None:
-        given = tuple(nodes)
-        self._by_id = {node.id: node for node in given}
-        if len(self._by_id) < len(given):
-            twice = sorted({a.id for i, a in enumerate(given) if a.id in {b.id for b in given[:i]}})
+        every = listed(nodes, "what the tree is made of", "a list of nodes")
+        for node in every:
+            given(node, Node, "a node of the tree", "Node(id, operation)")
+        self._by_id = {node.id: node for node in every}
+        if len(self._by_id) < len(every):
+            twice = sorted({a.id for i, a in enumerate(every) if a.id in {b.id for b in every[:i]}})
             raise InputError(f"several nodes are called {twice[0]!r}; give each node an id of its own")
         self.nodes: tuple[Node, ...] = tuple(self._ordered())
         self.evaluations = Evaluations() if evaluations is None else evaluations
@@ -114,8 +116,8 @@ class OperationsTree:
         InputError
             Where the tree has none of that id.
         """
-        if id not in self._by_id:
-            raise InputError(f"the tree has no node {id!r}; it has {len(self.nodes)} nodes, check the id")
+        if not isinstance(id, str) or id not in self._by_id:
+            raise InputError(f"the tree has no node {shown(id)}; it has {len(self.nodes)} nodes, check the id")
         return self._by_id[id]
 
     def with_node(self, node: Node) -> "OperationsTree":
@@ -224,6 +226,8 @@ class OperationsTree:
         generator of (float, str)
             Returns what was applied.
         """
+        if library is not None:
+            given(library, Mapping, "the library", "a mesh per name")
         layout = yield from self.layout_steps(scene, seed=seed, surfaces=surfaces)
         scene.memory.settle()
         return Applied(layout, self.evaluations.hit_rate, library)
@@ -283,12 +287,18 @@ class OperationsTree:
         generator of (float, str)
             Returns the layout.
         """
+        given(scene, Scene, "the scene", "Scene([polygon, …])")
+        if not is_whole(seed):
+            raise InputError(f"the seed is {shown(seed)}; give a whole number")
+        seed = int(seed)
+        for surface in (surfaces := listed(surfaces, "what is chosen as surfaces", "a list of surfaces")):
+            given(surface, Surface, "a chosen surface", "Surface(…)")
         rank = {n.id: i for i, n in enumerate(self.nodes)}
         links = [Link(node)] if isinstance(node, str) else self._open() if node is None else list(node)
         wanted = self._upstream(self.node(link.node).id for link in links)
         needed = [n for n in self.nodes if n.id in wanted]
         outputs: dict[str, tuple[Layout, ...]] = {}
-        bare = Layout(scene, chosen=tuple(surfaces))
+        bare = Layout(scene, chosen=surfaces)
 
         def joined(links: Iterable[Link]) -> Layout:
             sources = sorted(set(links), key=lambda k: (rank[k.node], k.output))
@@ -375,9 +385,10 @@ class OperationsTree:
         InputError
             Where the file cannot be read, is cut off, or holds no tree of this version.
         """
-        name = Path(path).name
+        path = path_of(path)
+        name = path.name
         try:
-            plain = json.loads(Path(path).read_text(encoding="utf-8"))
+            plain = json.loads(path.read_text(encoding="utf-8"))
         except OSError as error:
             raise InputError(f"{name} cannot be read: {error.strerror or error}; check the path") from None
         except (UnicodeDecodeError, RecursionError):
@@ -400,7 +411,9 @@ class OperationsTree:
         InputError
             Where the file cannot be written.
         """
-        path = Path(path)
+        path = path_of(path)
+        if not path.name:
+            raise InputError("the path of the operations tree is empty; give the name of a file")
         written = json.dumps(self.to_dict(), indent=1, ensure_ascii=False, allow_nan=False)
         part = path.with_name(path.name + ".part")
         try:

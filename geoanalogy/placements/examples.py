@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from ..arguments import given, listed, real, shown
 from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..geometry.rectangle import Rectangle
@@ -42,11 +43,14 @@ class Example:
     target: float = 1.0
 
     def __post_init__(self) -> None:
-        if not (np.isfinite(self.target) and 0 <= self.target <= 1):
+        given(self.scene, Scene, "the scene of an example", "Scene([polygon, …])")
+        given(self.rectangle, Rectangle, "the rectangle of an example", "Rectangle(x, y, width, height, angle)")
+        if not 0 <= real(self.target) <= 1:
             raise InputError(
-                f"the example at x {self.rectangle.x:.6g}, y {self.rectangle.y:.6g} has the target {self.target}; "
-                "give a number from 0 (not wanted) to 1 (wanted)"
+                f"the example at x {self.rectangle.x:.6g}, y {self.rectangle.y:.6g} has the target "
+                f"{shown(self.target)}; give a number from 0 (not wanted) to 1 (wanted)"
             )
+        object.__setattr__(self, "target", float(self.target))
 
 
 @dataclass(frozen=True)
@@ -174,7 +178,7 @@ def checked(examples: Sequence[Example]) -> list[Example]:
         For no examples, targets that are all 0, or one rectangle with two targets.
     """
     kept: list[Example] = []
-    for example in examples:
+    for example in listed(examples, "what is given as examples", "a list of them"):
         if not isinstance(example, Example):
             raise InputError(
                 f"examples are of the type Example, not {type(example).__name__}; give Example(scene, Rectangle(…))"

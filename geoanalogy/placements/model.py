@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import given, is_flag, real, shown
 from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..geometry.rectangle import Rectangle
@@ -25,7 +26,7 @@ from .results import Placement, disjoint, told
 from .rule import Relation, learned_rule, reasons
 from .selection import rescaled, shape_factor, useful_cut, without_overlaps
 from .siblings import row_odds, standing_of
-from .signature import Signature, signature
+from .signature import PARENT_BOX, Signature, signature
 from .survey import Survey, more_certain, survey
 from .taught import Taught, coverage, teach
 
@@ -114,8 +115,11 @@ class PlacementModel:
             Returns the list of Placement.
         """
         least = self.options.threshold if threshold is None else threshold
-        if not 0 <= least <= 1:
-            raise InputError(f"the threshold is {least}; give a number from 0 to 1")
+        given(scene, Scene, "the scene", "Scene([polygon, …])")
+        if not is_flag(include_examples):
+            raise InputError(f"include_examples is {shown(include_examples)}; give True or False")
+        if not 0 <= real(least) <= 1:
+            raise InputError(f"the threshold is {shown(least)}; give a number from 0 to 1")
         parents = [p for p in scene.polygons if p.label == self.label]
         taught = [self.lesson.taught[i].standing for i in self.lesson.positive]
         against = row_odds(scene, self.label, [s for s in taught if s is not None])
@@ -139,6 +143,7 @@ class PlacementModel:
             there an example more would help most.
         """
         found = []
+        given(scene, Scene, "the scene", "Scene([polygon, …])")
         for parent in (p for p in scene.polygons if p.label == self.label):
             nearest = 0.0
             for frame in self.orientation.frames(parent):
@@ -326,7 +331,7 @@ class PlacementModel:
         InputError
             For data that is no stored placement model.
         """
-        if not isinstance(plain, dict) or plain.get("schema") != SCHEMA:
+        if not isinstance(plain, dict) or not isinstance(plain.get("schema"), str) or plain["schema"] != SCHEMA:
             raise InputError(f"this is no stored placement model (its schema is not {SCHEMA!r}); learn it again")
         try:
             taught = [Taught.from_dict(t) for t in plain["examples"]]
@@ -334,9 +339,17 @@ class PlacementModel:
                 {key: np.array(value, dtype=np.float64) for key, value in plain["boxes"].items()},
                 {key: np.array(value, dtype=np.float64) for key, value in plain["outlines"].items()},
             )
+            if not taught or any(len(v) != len(taught) for part in (kept.boxes, kept.outlines) for v in part.values()):
+                raise ValueError("its relations are not those of its examples")
+            if PARENT_BOX not in kept.boxes:
+                raise KeyError(PARENT_BOX)
             options = PlacementOptions.from_dict(plain["options"])
-            return cls(plain["label"], Orientation(**plain["orientation"]), Lesson(taught, kept, options))
-        except (KeyError, TypeError, ValueError, AttributeError) as error:
+            return cls(
+                given(plain["label"], str, "its label", "text"),
+                Orientation(**plain["orientation"]),
+                Lesson(taught, kept, options),
+            )
+        except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
             raise InputError(f"the stored placement model is damaged ({error}); learn it again") from error
 
 
@@ -361,7 +374,8 @@ def learn_placement(examples: Sequence[Example], options: PlacementOptions | Non
     kept = checked(examples)
     parents = parents_of(kept)
     orientation = orientation_of(kept, parents)
-    chosen = options or PlacementOptions()
+    chosen = PlacementOptions() if options is None else options
+    given(chosen, PlacementOptions, "options", "PlacementOptions(…)")
     drawn: dict[Arrangement, list[int]] = {}
     for i, (example, parent) in enumerate(zip(kept, parents, strict=True)):
         frame = orientation.frame_at(parent, np.array([example.rectangle.x, example.rectangle.y]))

@@ -1,10 +1,11 @@
 """What the user can set about placements."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 import numpy as np
 
+from ..arguments import given, is_flag, is_whole, real, shown
 from ..errors import InputError
 
 
@@ -51,14 +52,24 @@ class PlacementOptions:
     between: bool = True
 
     def __post_init__(self) -> None:
-        for name in ("tau", "aspect_tolerance", "area_tolerance"):
-            if not getattr(self, name) > 0:
-                raise InputError(f"the option {name} is {getattr(self, name)}; give a positive number")
+        for name in ("aspect_tolerance", "area_tolerance"):
+            if not (value := real(getattr(self, name))) > 0:
+                raise InputError(f"the option {name} is {shown(getattr(self, name))}; give a positive number")
+            object.__setattr__(self, name, value)
+        if not 0 < real(self.tau) <= 1000:
+            raise InputError(f"the option tau is {shown(self.tau)}; give a positive number up to 1000")
         for name in ("threshold", "allow_overlaps"):
-            if not 0 <= getattr(self, name) <= 1:
-                raise InputError(f"the option {name} is {getattr(self, name)}; give a number from 0 to 1")
-        if self.neighbours != int(self.neighbours) or self.neighbours < 1:
-            raise InputError(f"the option neighbours is {self.neighbours}; give a whole number from 1")
+            if not 0 <= real(value := getattr(self, name)) <= 1:
+                raise InputError(f"the option {name} is {shown(value)}; give a number from 0 to 1")
+        for name in ("tau", "threshold", "allow_overlaps"):
+            object.__setattr__(self, name, float(getattr(self, name)))
+        if not is_whole(self.neighbours) or not 1 <= self.neighbours <= 1000:
+            raise InputError(f"the option neighbours is {shown(self.neighbours)}; give a whole number from 1 to 1000")
+        object.__setattr__(self, "neighbours", int(self.neighbours))
+        for name in ("mirrored", "forbid_intersections", "between"):
+            if not is_flag(value := getattr(self, name)):
+                raise InputError(f"the option {name} is {shown(value)}; give True or False")
+            object.__setattr__(self, name, bool(value))
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data, as it is written to JSON (an infinite tolerance is None there)."""
@@ -66,6 +77,24 @@ class PlacementOptions:
 
     @classmethod
     def from_dict(cls, plain: dict[str, Any]) -> "PlacementOptions":
-        """The inverse of `to_dict`."""
+        """The inverse of `to_dict`.
+
+        Parameters
+        ----------
+        plain : dict
+
+        Returns
+        -------
+        PlacementOptions
+
+        Raises
+        ------
+        InputError
+            For a name that is no option, and for values out of range.
+        """
+        given(plain, dict, "what is stored as options of placements", "names and values")
+        unknown = ", ".join(sorted(str(k) for k in set(plain) - {f.name for f in fields(cls)}))
+        if unknown:
+            raise InputError(f"{unknown} is no option of placements; it may come from a newer version")
         values: dict[str, Any] = {k: np.inf if v is None else v for k, v in plain.items()}
         return cls(**values)

@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from ..arguments import given
 from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
@@ -124,6 +125,7 @@ class PoseModel:
         generator of (float, str)
             Returns PoseResults.
         """
+        given(scene, Scene, "the scene", "Scene([polygon, …])")
         targets = self.targets(scene)
         spacing = self._spacing(targets)
         keep_features(p for polygon in targets for p in (polygon, *scene.members_of(str(polygon.id))))
@@ -404,5 +406,5 @@ class PoseModel:
                 footprint_ring(plain["footprint"]),
                 PoseOptions.from_dict(plain["options"]),
             )
-        except (KeyError, TypeError, AttributeError) as error:
+        except (KeyError, TypeError, AttributeError, IndexError) as error:
             raise InputError(f"the stored pose model lacks or garbles {error}; record the operation again") from error

@@ -1,9 +1,11 @@
 """The options of pose propagation (chapter 4), with their defaults."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
+from math import inf
 from typing import Any, Literal
 
+from ..arguments import given, is_flag, is_whole, listed, points_of, real, shown
 from ..errors import InputError
 from ..relations.table import POSE_RELATIONS, RELATIONS
 
@@ -97,16 +99,29 @@ class PoseOptions:
     candidates: int = 12
 
     def __post_init__(self) -> None:
-        unknown = [r for r in self.relations if r not in RELATIONS or RELATIONS[r].directional is None]
-        if unknown or not self.relations:
-            known = ", ".join(r for r, row in RELATIONS.items() if row.directional is not None)
-            raise InputError(f"no relation of poses is called {', '.join(unknown) or 'nothing'}; choose from {known}")
+        known = [r for r, row in RELATIONS.items() if row.directional is not None]
+        relations = listed(self.relations, "the option relations", "a list of names of relations")
+        unknown = ", ".join(f"{r}" for r in relations if not isinstance(r, str) or r not in known)
+        if unknown or not relations:
+            raise InputError(f"no relation of poses is called {unknown or 'nothing'}; choose from {', '.join(known)}")
+        read: dict[str, Any] = {"relations": relations}
         for name, least in (("cells", 1), ("direction_bins", 4), ("candidates", 1)):
-            if getattr(self, name) < least:
-                raise InputError(f"the option {name} is {getattr(self, name)}; give at least {least}")
-        for name in ("level_set_width", "direction_width"):
-            if not getattr(self, name) > 0:
-                raise InputError(f"the option {name} is {getattr(self, name)}; give a positive number")
+            read[name] = _count(getattr(self, name), f"the option {name}", least)
+        for name, most in (("level_set_width", 10.0), ("direction_width", 7.0)):
+            value = getattr(self, name)
+            if not 0 < real(value) <= most:
+                raise InputError(f"the option {name} is {shown(value)}; give a positive number up to {most:g}")
+            read[name] = float(value)
+        if not 0 <= real(self.threshold) <= 1:
+            raise InputError(f"the option threshold is {shown(self.threshold)}; give a number from 0 to 1")
+        read["threshold"] = float(self.threshold)
+        if self.spacing is not None:
+            read["spacing"] = _length(self.spacing, "the option spacing")
+        for name in ("mirror", "upright", "symmetries", "labels", "other_parents", "validate"):
+            value = getattr(self, name)
+            if not is_flag(value) and not (value is None and name == "mirror"):
+                raise InputError(f"the option {name} is {shown(value)}; give True or False")
+            read[name] = None if value is None else bool(value)
         choices = {
             "accumulation": ("footprint", "plane", "pose space"),
             "scale": ("fixed", "room"),
@@ -114,8 +129,20 @@ class PoseOptions:
             "matching_accuracy": ("features", "constant"),
         }
         for name, allowed in choices.items():
-            if getattr(self, name) not in allowed:
-                raise InputError(f"the option {name} is {getattr(self, name)!r}; choose from {', '.join(allowed)}")
+            value = getattr(self, name)
+            if not isinstance(value, str) or value not in allowed:
+                raise InputError(f"the option {name} is {shown(value)}; choose from {', '.join(allowed)}")
+        read["relation_weights"] = self._each("relation_weights", "a factor per relation or label", _length)
+        read["clearance"] = self._each("clearance", "a width per label", _length)
+        read["max_per"] = self._each("max_per", "a number of results per label", _count)
+        read["alternative_geometry"] = self._each("alternative_geometry", "a ring per polygon id", _outline)
+        for name, value in read.items():
+            object.__setattr__(self, name, value)
+
+    def _each(self, name: str, remedy: str, read: Callable[[Any, str], Any]) -> dict[str, Any]:
+        """An option that is a mapping, its values read one by one."""
+        plain = given(getattr(self, name), Mapping, f"the option {name}", remedy)
+        return {str(key): read(value, f"the option {name} of {key!r}") for key, value in plain.items()}
 
     def to_dict(self) -> dict[str, Any]:
         """What differs from the defaults, as plain data.
@@ -144,10 +171,30 @@ class PoseOptions:
         InputError
             For a name that is no option.
         """
-        unknown = set(plain) - {f.name for f in fields(cls)}
+        given(plain, Mapping, "what is stored as options of pose propagation", "names and values")
+        unknown = ", ".join(sorted(str(k) for k in set(plain) - {f.name for f in fields(cls)}))
         if unknown:
-            raise InputError(
-                f"{', '.join(sorted(unknown))} is no option of pose propagation; it may come from a newer version"
-            )
-        given: dict[str, Any] = {k: tuple(v) if k == "relations" else v for k, v in plain.items()}
-        return cls(**given)
+            raise InputError(f"{unknown} is no option of pose propagation; it may come from a newer version")
+        return cls(**plain)
+
+
+def _count(value: Any, name: str, least: int = 0) -> int:
+    """A whole number of something."""
+    if not is_whole(value) or value < least:
+        raise InputError(f"{name} is {shown(value)}; give a whole number, at least {least}")
+    return int(value)
+
+
+def _length(value: Any, name: str) -> float:
+    """A finite number that is not negative."""
+    if not 0 <= real(value) < inf:
+        raise InputError(f"{name} is {shown(value)}; give a finite number that is not negative")
+    return float(value)
+
+
+def _outline(value: Any, name: str) -> list[list[float]]:
+    """A ring, which may cross itself, as plain data."""
+    ring = points_of(value, f"the points of {name}")
+    if ring.ndim != 2 or len(ring) < 3:
+        raise InputError(f"{name} is {shown(value)}; give the three or more vertices of a ring")
+    return ring.tolist()  # type: ignore[no-any-return]

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import is_flag, points_of, shown
 from ..errors import InputError
 from ..geometry.polygon import clean_ring
 
@@ -41,10 +42,13 @@ class Pose:
         try:
             x, y = (float(v) for v in self.position)
             angle = float(self.angle)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise InputError(
                 "the pose's position is no pair of numbers, or its angle is none; give x, y and radians"
             ) from None
+        if not is_flag(self.mirrored):
+            raise InputError(f"the pose is mirrored or not, but not {shown(self.mirrored)}; give True or False")
+        object.__setattr__(self, "mirrored", bool(self.mirrored))
         if not np.isfinite([x, y, angle]).all():
             raise InputError("the pose has a position or angle that is not finite; give numbers")
         object.__setattr__(self, "position", (x, y))
@@ -61,7 +65,7 @@ class Pose:
         -------
         ndarray of shape (n, 2)
         """
-        p = np.asarray(points, dtype=np.float64)
+        p = points_of(points, "the points")
         if self.mirrored:
             p = p * (1.0, -1.0)
         c, s = np.cos(self.angle), np.sin(self.angle)
@@ -79,7 +83,7 @@ class Pose:
         ndarray of shape (n, 2)
         """
         c, s = np.cos(self.angle), np.sin(self.angle)
-        p = (np.asarray(points, dtype=np.float64) - self.position) @ np.array([[c, -s], [s, c]])
+        p = (points_of(points, "the points") - self.position) @ np.array([[c, -s], [s, c]])
         return p * (1.0, -1.0) if self.mirrored else p
 
 

@@ -2,6 +2,7 @@
 
 from numpy.typing import ArrayLike
 
+from ..arguments import given
 from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
@@ -36,6 +37,9 @@ def learn_pose(
     InputError
         Where the scene is empty or no polygon holds the example.
     """
+    given(scene, Scene, "the scene", "Scene([polygon, …])")
+    given(pose, Pose, "the example", "Pose((x, y), angle)")
+    options = PoseOptions() if options is None else given(options, PoseOptions, "options", "PoseOptions(…)")
     if not len(scene):
         raise InputError("the scene is empty; add polygons, such as rooms, before an example is propagated")
     ring = footprint_ring(footprint)
@@ -48,7 +52,7 @@ def learn_pose(
     # Members keep their parent; the parent itself is the top of its own scene.
     top = Polygon(**{**parent.to_dict(), "parent": None})
     source = Scene([top, *(Polygon(**{**m.to_dict(), "parent": parent.id}) for m in members)])
-    return PoseModel(source, source.polygon(str(parent.id)), pose, ring, options or PoseOptions())
+    return PoseModel(source, source.polygon(str(parent.id)), pose, ring, options)
 
 
 def propagate_pose(

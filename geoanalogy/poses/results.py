@@ -3,12 +3,15 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from math import isnan
 from typing import overload
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from ..arguments import is_whole, real, shown
+from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..tolerances import TOUCHING_SHARE
 from .pose import Pose
@@ -117,7 +120,14 @@ class PoseResults(Sequence[PropagatedPose]):
         Returns
         -------
         PoseResults
+
+        Raises
+        ------
+        InputError
+            For a threshold that is no number.
         """
+        if isnan(real(threshold)):
+            raise InputError(f"the threshold is {shown(threshold)}; give a number from 0 to 1")
         return PoseResults([p for p in self._poses if p.importance >= threshold], self._footprint)
 
     def max_per(self, label: str, count: int) -> "PoseResults":
@@ -131,7 +141,16 @@ class PoseResults(Sequence[PropagatedPose]):
         Returns
         -------
         PoseResults
+
+        Raises
+        ------
+        InputError
+            For a count that is no whole number, or negative.
         """
+        if not isinstance(label, str):
+            raise InputError(f"the label is {shown(label)}; give the text that parents are labelled with")
+        if not is_whole(count) or count < 0:
+            raise InputError(f"the number of results per {label!r} is {shown(count)}; give a whole number from 0 on")
         taken: dict[str | None, int] = {}
         kept = []
         for p in self._poses:
@@ -153,7 +172,14 @@ class PoseResults(Sequence[PropagatedPose]):
         Returns
         -------
         PoseResults
+
+        Raises
+        ------
+        InputError
+            For a distance that is no number.
         """
+        if isnan(real(spacing)):
+            raise InputError(f"the spacing of the results is {shown(spacing)}; give a distance")
         kept: list[PropagatedPose] = []
         near: dict[str | None, list[tuple[float, float]]] = {}
         for p in self._poses:

@@ -7,6 +7,8 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import given, real, shown
+from ..errors import InputError
 from ..geometry.contours import Complex, Contours, Floats
 from ..geometry.drawing import Drawing
 from ..progress import Progress, Stepper, run, within
@@ -123,8 +125,24 @@ class Matches(Sequence[RegionMatch]):
         self._shown = [m for m in self.every if m.similarity >= threshold]
 
     def above(self, threshold: float) -> "Matches":
-        """The matches with at least this similarity; nothing is computed again."""
-        return Matches(self.every, threshold, self.refined, self.nodes, self.size)
+        """The matches with at least this similarity; nothing is computed again.
+
+        Parameters
+        ----------
+        threshold : float
+
+        Returns
+        -------
+        Matches
+
+        Raises
+        ------
+        InputError
+            For a threshold that is no number.
+        """
+        if not np.isfinite(real(threshold)):
+            raise InputError(f"The threshold is {shown(threshold)}: give a number from 0 to 1.")
+        return Matches(self.every, float(threshold), self.refined, self.nodes, self.size)
 
     def __len__(self) -> int:
         return len(self._shown)
@@ -190,7 +208,8 @@ def matching(
     -------
     Stepper[Matches]
     """
-    options = options or RegionOptions()
+    given(drawing, Drawing, "the drawing", "Drawing([line, …])")
+    options = RegionOptions() if options is None else given(options, RegionOptions, "options", "RegionOptions(…)")
     yield 0.0, "reading the query"
     region = Query.of(drawing, query, options)
     contours = drawing.contours

@@ -1,9 +1,8 @@
 """The options of matching regions."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
-import numpy as np
-
+from ..arguments import is_flag, is_whole, real, shown
 from ..errors import InputError
 
 
@@ -61,16 +60,23 @@ class RegionOptions:
     most: int = 200
 
     def __post_init__(self) -> None:
-        for f in fields(self):
-            value = getattr(self, f.name)
-            if isinstance(value, float | int) and not np.isfinite(value):
-                raise InputError(f"The option {f.name} is {value}: give a finite number.")
         for name, low, high in _RANGES:
-            if not low <= getattr(self, name) <= high:
-                raise InputError(f"The option {name} is {getattr(self, name)}: give a value from {low:g} to {high:g}.")
-        if self.query_kind not in ("auto", "region", "stroke"):
-            raise InputError(f'The option query_kind is "{self.query_kind}": give "auto", "region" or "stroke".')
+            value, counts = getattr(self, name), name in _COUNTS
+            if not low <= real(value) <= high or (counts and not is_whole(value)):
+                number = "whole number" if counts else "number"
+                raise InputError(f"The option {name} is {shown(value)}: give a {number} from {low:g} to {high:g}.")
+            object.__setattr__(self, name, int(value) if counts else float(value))
+        for name in ("mirrored", "branches"):
+            if not is_flag(value := getattr(self, name)):
+                raise InputError(f"The option {name} is {shown(value)}: give True or False.")
+            object.__setattr__(self, name, bool(value))
+        if not isinstance(self.query_kind, str) or self.query_kind not in ("auto", "region", "stroke"):
+            kind = shown(self.query_kind)
+            raise InputError(f'The option query_kind is {kind}: give "auto", "region" or "stroke".')
 
+
+#: Options that count something.
+_COUNTS = ("query_points", "most")
 
 _RANGES = (
     ("threshold", 0.0, 1.0),

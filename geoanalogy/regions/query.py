@@ -140,7 +140,7 @@ def _polyline(drawing: Drawing, query: ArrayLike) -> Complex:
     """The query's vertices in the drawing's frame, without consecutive duplicates."""
     try:
         p = np.asarray(query, float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError("The query is no list of points: give pairs of numbers.") from None
     if p.ndim != 2 or p.shape[1] != 2:
         raise InputError(f"The query has the shape {p.shape}: give points as (n, 2).")

@@ -155,7 +155,9 @@ def test_wrong_number_of_segment_labels(count):
 
 @pytest.mark.parametrize("orientation", [np.nan, np.inf])
 def test_orientation_must_be_finite(orientation):
-    with pytest.raises(InputError, match="orientation that is not finite; give radians or leave it out"):
+    with pytest.raises(
+        InputError, match=r"the orientation (nan|inf), which is not finite; give radians or leave it out"
+    ):
         Polygon(UNIT_SQUARE, orientation=orientation)
 
 

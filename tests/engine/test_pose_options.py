@@ -457,9 +457,9 @@ def test_a_stored_model_knows_its_surroundings_without_their_scene():
         ({"relations": ("boundary distance", "colour")}, "no relation of poses is called colour; choose from boundary"),
         ({"relations": ("box centre x",)}, "no relation of poses is called box centre x"),
         ({"relations": ()}, "no relation of poses is called nothing"),
-        ({"cells": 0}, "the option cells is 0; give at least 1"),
-        ({"direction_bins": 3}, "the option direction_bins is 3; give at least 4"),
-        ({"candidates": 0}, "the option candidates is 0; give at least 1"),
+        ({"cells": 0}, "the option cells is 0; give a whole number, at least 1"),
+        ({"direction_bins": 3}, "the option direction_bins is 3; give a whole number, at least 4"),
+        ({"candidates": 0}, "the option candidates is 0; give a whole number, at least 1"),
         ({"level_set_width": 0.0}, r"the option level_set_width is 0\.0; give a positive number"),
         ({"level_set_width": float("nan")}, "the option level_set_width is nan; give a positive number"),
         ({"direction_width": -1.0}, r"the option direction_width is -1\.0; give a positive number"),
@@ -467,11 +467,41 @@ def test_a_stored_model_knows_its_surroundings_without_their_scene():
         ({"scale": "metres"}, "the option scale is 'metres'; choose from fixed, room"),
         ({"local_importance": "none"}, "the option local_importance is 'none'; choose from distance, constant"),
         ({"matching_accuracy": 1}, "the option matching_accuracy is 1; choose from features, constant"),
+        ({"relations": "corner distance"}, "the option relations is 'corner distance'; give a list of names"),
+        ({"relations": (3,)}, "no relation of poses is called 3; choose from boundary"),
+        ({"threshold": 1.1}, "the option threshold is 1.1; give a number from 0 to 1"),
+        ({"threshold": float("nan")}, "the option threshold is nan; give a number from 0 to 1"),
+        ({"cells": 2.5}, "the option cells is 2.5; give a whole number"),
+        ({"candidates": "many"}, "the option candidates is 'many'; give a whole number"),
+        ({"level_set_width": 1e300}, "the option level_set_width is 1e.300; give a positive number up to 10"),
+        ({"mirror": "no"}, "the option mirror is 'no'; give True or False"),
+        ({"labels": None}, "the option labels is None; give True or False"),
+        ({"spacing": -1}, "the option spacing is -1; give a finite number that is not negative"),
+        ({"clearance": {"door": -0.5}}, "the option clearance of 'door' is -0.5; give a finite number"),
+        ({"clearance": 0.5}, "the option clearance is 0.5, which is no Mapping; give a width per label"),
+        ({"relation_weights": {"bed": float("inf")}}, "the option relation_weights of 'bed' is inf; give a finite"),
+        ({"max_per": {"room": 1.5}}, "the option max_per of 'room' is 1.5; give a whole number, at least 0"),
+        ({"alternative_geometry": {"door": [(0, 0), (1, 1)]}}, "of 'door' is .*; give the three or more vertices"),
+        ({"alternative_geometry": {"door": [(0, 0), (1, 1), (0, float("nan"))]}}, "'door' have a coordinate that is"),
     ],
 )
 def test_bad_options_are_named(options, message):
     with pytest.raises(ga.InputError, match=message):
         PoseOptions(**options)
+
+
+def test_options_take_the_numbers_of_numpy_and_are_stored_as_plain_data():
+    options = PoseOptions(
+        relations=["corner distance"],
+        cells=2e4,
+        candidates=np.int64(3),
+        threshold=np.float32(0.25),
+        mirror=np.bool_(True),
+        max_per={"room": np.int32(2)},
+        alternative_geometry={"door": np.array([(0, 0), (1, 0), (1, 1)])},
+    )
+    assert PoseOptions.from_dict(json.loads(json.dumps(options.to_dict()))) == options
+    assert (options.cells, options.threshold, options.mirror) == (20_000, 0.25, True)
 
 
 def test_an_option_of_a_newer_version_is_named():
@@ -494,7 +524,7 @@ def stored():
         ({"parent": "attic"}, "the scene has no polygon 'attic'"),
         ({"footprint": [[0, 0], [1, 1]]}, "the footprint has 2 distinct vertices"),
         ({"options": {"warp": 1}}, "warp is no option"),
-        ({"options": None}, "the stored pose model lacks or garbles"),
+        ({"options": None}, "options of pose propagation is None, which is no Mapping; give names and values"),
     ],
 )
 def test_a_garbled_model_is_named(change, message):

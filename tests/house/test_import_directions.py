@@ -19,14 +19,15 @@ BLENDER = {
 NUMERICAL = {"numpy", "scipy", "shapely", "manifold3d"}
 OURS = {"geoanalogy", "operators", "panels", "bl_ext"}
 
-BASE = {"errors", "tolerances", "progress"}
+BASE = {"errors", "arguments", "tolerances", "progress"}
 ENGINES = {"poses", "placements", "regions"}
 
 # Each package of the engine, and the packages of the engine that it may import besides itself.
 MAY_IMPORT = {
     "errors": set(),
     "tolerances": set(),
-    "progress": {"errors"},
+    "arguments": {"errors"},
+    "progress": {"errors", "arguments"},
     "geometry": BASE,
     "relations": BASE | {"geometry"},
     "poses": BASE | {"geometry", "relations"},
@@ -91,7 +92,17 @@ def test_every_package_of_the_engine_has_its_row():
 
 
 def test_the_table_points_one_way():
-    order = ["errors", "progress", "tolerances", "geometry", "relations", *ENGINES, "formats", "operations"]
+    order = [
+        "errors",
+        "arguments",
+        "progress",
+        "tolerances",
+        "geometry",
+        "relations",
+        *ENGINES,
+        "formats",
+        "operations",
+    ]
     for row in order:
         assert MAY_IMPORT[row] <= set(order[: order.index(row)]), row
 
