@@ -4,14 +4,14 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from ..geoanalogy.blender import names
-from ..geoanalogy.blender.tree.recording import THRESHOLD, array_steps
+from ..geoanalogy.blender.tree.recording import THRESHOLD, array_steps, is_mark
 from ..geoanalogy.errors import InputError
 from ..geoanalogy.poses.arrays import ArrayOptions
 from .edit import LongEdit, needs_active_object, selected_active
-from .pose_settings import PoseSettings
+from .pose_settings import SearchSettings
 
 
-class GEOANALOGY_OT_array(PoseSettings, LongEdit, bpy.types.Operator):
+class GEOANALOGY_OT_array(SearchSettings, LongEdit, bpy.types.Operator):
     """Put copies of the active object along the boundary it stands at, up to the selected empty; so in like places"""
 
     bl_idname = "geoanalogy.array"
@@ -41,7 +41,12 @@ class GEOANALOGY_OT_array(PoseSettings, LongEdit, bpy.types.Operator):
         ],
     )
     threshold: FloatProperty(
-        name="Threshold", description="Least importance of an array", min=0.0, max=1.0, default=THRESHOLD
+        name="Threshold",
+        description="Least importance of an array",
+        min=0.0,
+        max=1.0,
+        default=THRESHOLD,
+        subtype="FACTOR",
     )
 
     @classmethod
@@ -54,6 +59,9 @@ class GEOANALOGY_OT_array(PoseSettings, LongEdit, bpy.types.Operator):
         ends = [item for item in context.selected_objects if item != start]
         if len(ends) > 1:
             raise InputError("several objects mark the array's end; select one empty and the first object")
+        if ends and is_mark(start) and not is_mark(ends[0]):
+            # Whoever clicks the empty last means the same.
+            start, ends = ends[0], [start]
         node = yield from array_steps(
             context,
             start,

@@ -1,6 +1,7 @@
 """What all operators share: errors are reported, and long work is done in slices that Esc can stop between."""
 
 from collections.abc import Generator
+from pathlib import Path
 
 import bpy
 
@@ -108,6 +109,14 @@ class LongEdit:
         context.workspace.status_text_set(None)
         for area in context.screen.areas if context.screen else ():
             area.tag_redraw()
+
+
+def chosen_file(filepath: str) -> Path:
+    """The file that was chosen in the file browser, which may be left without choosing any."""
+    path = Path(bpy.path.abspath(filepath))
+    if not filepath or path.is_dir():
+        raise InputError("no file is chosen; click one in the file browser")
+    return path
 
 
 def needs_object_mode(cls: type, context: bpy.types.Context) -> bool:

@@ -6,7 +6,7 @@ from bpy_extras.io_utils import ImportHelper
 
 from ..geoanalogy.blender.regions.drawings import add_lines
 from ..geoanalogy.formats.files import read_drawing
-from .edit import Edit, needs_object_mode
+from .edit import Edit, chosen_file, needs_object_mode
 
 
 class GEOANALOGY_OT_import_drawing(Edit, ImportHelper, bpy.types.Operator):
@@ -24,10 +24,9 @@ class GEOANALOGY_OT_import_drawing(Edit, ImportHelper, bpy.types.Operator):
 
     def edit(self, context):
         """Read the file, and add its lines."""
-        path = bpy.path.abspath(self.filepath)
+        path = chosen_file(self.filepath)
         lines = read_drawing(path)
-        name = bpy.path.display_name_from_filepath(path)
-        add_lines(context, [self.scale * line for line in lines], name)
+        add_lines(context, [self.scale * line for line in lines], path.stem)
         return f"{len(lines)} lines"
 
 

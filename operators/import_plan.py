@@ -6,7 +6,7 @@ from bpy_extras.io_utils import ImportHelper
 
 from ..geoanalogy.blender.plan_making import add_plan
 from ..geoanalogy.formats.files import read_scene
-from .edit import Edit, needs_object_mode
+from .edit import Edit, chosen_file, needs_object_mode
 
 
 class GEOANALOGY_OT_import_plan(Edit, ImportHelper, bpy.types.Operator):
@@ -29,9 +29,9 @@ class GEOANALOGY_OT_import_plan(Edit, ImportHelper, bpy.types.Operator):
 
     def edit(self, context):
         """Read the file, and add its polygons to the plan."""
-        path = bpy.path.abspath(self.filepath)
+        path = chosen_file(self.filepath)
         scene = read_scene(path, label=self.label.strip() or None, scale=self.scale)
-        return f"{len(add_plan(context, scene, bpy.path.display_name_from_filepath(path)))} polygons"
+        return f"{len(add_plan(context, scene, path.stem))} polygons"
 
 
 def register():

@@ -1,7 +1,5 @@
 """Read an operations tree from a file."""
 
-from pathlib import Path
-
 import bpy
 from bpy.props import BoolProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
@@ -10,7 +8,7 @@ from ..geoanalogy.blender.tree.editing import chosen_outputs
 from ..geoanalogy.blender.tree.evaluating import mark_stale
 from ..geoanalogy.blender.tree.files import graft_tree, import_tree
 from ..geoanalogy.blender.tree.store import ordered_nodes, require_operations
-from .edit import Edit, needs_object_mode
+from .edit import Edit, chosen_file, needs_object_mode
 
 
 class GEOANALOGY_OT_import_tree(Edit, ImportHelper, bpy.types.Operator):
@@ -34,7 +32,7 @@ class GEOANALOGY_OT_import_tree(Edit, ImportHelper, bpy.types.Operator):
 
     def edit(self, context):
         """Read it; nothing is evaluated."""
-        path = Path(bpy.path.abspath(self.filepath))
+        path = chosen_file(self.filepath)
         if not self.grow:
             tree = import_tree(context.scene, path)
             return f"{len(tree.nodes)} operations read from {path.name}; press Apply"

@@ -29,7 +29,12 @@ class GEOANALOGY_OT_place(LongEdit, bpy.types.Operator):
     bl_label = "Learn and Place"
 
     threshold: FloatProperty(
-        name="Threshold", description="Least score of a result", min=0.0, max=1.0, default=THRESHOLD
+        name="Threshold",
+        description="Least score of a result",
+        min=0.0,
+        max=1.0,
+        default=THRESHOLD,
+        subtype="FACTOR",
     )
     along: EnumProperty(name="Along", description="Along the width of a place", items=FITS)
     across: EnumProperty(name="Across", description="Along the height of a place", items=FITS)

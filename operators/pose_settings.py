@@ -1,5 +1,6 @@
 """The options of propagation that several operators show in their redo panels."""
 
+from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -17,19 +18,8 @@ RELATION_ITEMS = [
 ]
 
 #: What is shown at once, and what only where more is asked for.
-SHOWN = ("mirror", "scale", "accumulation", "level_set_width", "validate", "clearance")
-MORE = (
-    "symmetries",
-    "use_labels",
-    "other_parents",
-    "weights",
-    "local_importance",
-    "matching_accuracy",
-    "direction_width",
-    "cells",
-    "direction_bins",
-    "candidates",
-)
+SHOWN = ("mirror", "scale", "validate", "clearance")
+MORE = ("symmetries", "use_labels", "other_parents", "weights", "local_importance", "matching_accuracy")
 
 _PLAIN = PoseOptions()
 
@@ -54,15 +44,6 @@ class PoseSettings:
         ],
         default="fixed",
     )
-    accumulation: EnumProperty(
-        name="Search",
-        items=[
-            ("footprint", "Footprint", "Sides and corners of the footprint stand in relations as well as its centre"),
-            ("plane", "Positions", "The origin alone stands in relations"),
-            ("pose space", "Positions and Directions", "The origin alone, in every direction: slower"),
-        ],
-        default="footprint",
-    )
     relations: EnumProperty(
         name="Relations",
         description="What must be alike",
@@ -77,14 +58,6 @@ class PoseSettings:
         name="Symmetry Axes", description="Count places mirrored about the axes of single edges and corners too"
     )
     use_labels: BoolProperty(name="Labels", description="Only match polygons of the same label", default=True)
-    level_set_width: FloatProperty(
-        name="Tolerance",
-        description="How far off a relation may be, as a share of the size of the example's polygon",
-        min=0.001,
-        max=0.5,
-        default=_PLAIN.level_set_width,
-    )
-
     clearance: StringProperty(
         name="Clearance",
         description="Width to keep free around polygons of a label, as in: door 0.9, window 0.3",
@@ -116,6 +89,61 @@ class PoseSettings:
         ],
         default=_PLAIN.matching_accuracy,
     )
+    more: BoolProperty(name="More Options", description="Show the options that are seldom needed")
+
+    shown, shown_more = SHOWN, MORE
+
+    def pose_options(self) -> PoseOptions:
+        """The options as the engine takes them; an InputError where clearance or weights cannot be read."""
+        return PoseOptions(
+            relations=tuple(item[0] for item in RELATION_ITEMS if item[0] in self.relations),
+            threshold=LEAST_IMPORTANCE,
+            mirror={"AUTO": None, "YES": True, "NO": False}[self.mirror],
+            symmetries=self.symmetries,
+            scale=self.scale,
+            labels=self.use_labels,
+            validate=self.validate,
+            clearance=read_pairs(self.clearance, "clearance"),
+            relation_weights=read_pairs(self.weights, "weight"),
+            other_parents=self.other_parents,
+            local_importance=self.local_importance,
+            matching_accuracy=self.matching_accuracy,
+        )
+
+    def draw_pose_settings(self, layout: bpy.types.UILayout) -> None:
+        """Draw them into a redo panel."""
+        for name in self.shown:
+            layout.prop(self, name)
+        layout.prop(self, "more")
+        if not self.more:
+            return
+        for name in self.shown_more:
+            row = layout.row()
+            row.active = name != "direction_bins" or self.accumulation == "pose space"
+            row.prop(self, name)
+        column = layout.column(heading="Relations")
+        column.prop(self, "relations")
+
+
+class SearchSettings(PoseSettings):
+    """The same, with how the best places are searched: where chance draws places, that counts for nothing."""
+
+    accumulation: EnumProperty(
+        name="Search",
+        items=[
+            ("footprint", "Footprint", "Sides and corners of the footprint stand in relations as well as its centre"),
+            ("plane", "Positions", "The origin alone stands in relations"),
+            ("pose space", "Positions and Directions", "The origin alone, in every direction: slower"),
+        ],
+        default="footprint",
+    )
+    level_set_width: FloatProperty(
+        name="Tolerance",
+        description="How far off a relation may be, as a share of the size of the example's polygon",
+        min=0.001,
+        max=0.5,
+        default=_PLAIN.level_set_width,
+    )
     direction_width: FloatProperty(
         name="Turn Tolerance",
         description="How far off a direction may be",
@@ -145,49 +173,33 @@ class PoseSettings:
         soft_max=100,
         default=_PLAIN.candidates,
     )
-    more: BoolProperty(name="More Options", description="Show the options that are seldom needed")
+
+    shown = (*SHOWN[:2], "accumulation", "level_set_width", *SHOWN[2:])
+    shown_more = (*MORE, "direction_width", "cells", "direction_bins", "candidates")
 
     def pose_options(self) -> PoseOptions:
         """The options as the engine takes them; an InputError where clearance or weights cannot be read."""
-        return PoseOptions(
-            relations=tuple(item[0] for item in RELATION_ITEMS if item[0] in self.relations),
-            threshold=LEAST_IMPORTANCE,
+        return replace(
+            super().pose_options(),
             accumulation=self.accumulation,
             level_set_width=self.level_set_width,
-            mirror={"AUTO": None, "YES": True, "NO": False}[self.mirror],
-            symmetries=self.symmetries,
-            scale=self.scale,
-            labels=self.use_labels,
-            validate=self.validate,
-            clearance=read_pairs(self.clearance, "clearance"),
-            relation_weights=read_pairs(self.weights, "weight"),
-            other_parents=self.other_parents,
-            local_importance=self.local_importance,
-            matching_accuracy=self.matching_accuracy,
             direction_width=round(self.direction_width, 6),
             cells=self.cells,
             direction_bins=self.direction_bins,
             candidates=self.candidates,
         )
 
-    def draw_pose_settings(self, layout: bpy.types.UILayout) -> None:
-        """Draw them into a redo panel."""
-        for name in SHOWN:
-            layout.prop(self, name)
-        layout.prop(self, "more")
-        if not self.more:
-            return
-        for name in MORE:
-            layout.prop(self, name)
-        column = layout.column(heading="Relations")
-        column.prop(self, "relations")
 
-
-class SiftedPoses(PoseSettings):
+class SiftedPoses(SearchSettings):
     """The same, with what sifts results: a threshold, how many a polygon may hold, and how near they may be."""
 
     threshold: FloatProperty(
-        name="Threshold", description="Least importance of a result", min=0.0, max=1.0, default=THRESHOLD
+        name="Threshold",
+        description="Least importance of a result",
+        min=0.0,
+        max=1.0,
+        default=THRESHOLD,
+        subtype="FACTOR",
     )
     most: IntProperty(
         name="At Most",

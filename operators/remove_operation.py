@@ -2,7 +2,7 @@
 
 import bpy
 
-from ..geoanalogy.blender.tree.editing import remove_node
+from ..geoanalogy.blender.tree.editing import neighbour_of, remove_node
 from ..geoanalogy.blender.tree.evaluating import mark_stale
 from ..geoanalogy.blender.tree.store import builds, recorded_nodes
 from ..geoanalogy.blender.tree.whole import show_whole
@@ -29,7 +29,10 @@ class GEOANALOGY_OT_remove_operation(Edit, bpy.types.Operator):
         whole = builds(tree)
         mark_stale(tree, node)
         clear_results(context.scene, [name])
+        beside = neighbour_of(tree, node)
         remove_node(tree, node)
+        if beside is not None:
+            tree.nodes.active = beside
         if whole:
             clear_masses(context.scene)
         if whole and recorded_nodes(tree):

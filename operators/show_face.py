@@ -6,6 +6,7 @@ from bpy.props import BoolProperty, IntProperty
 from ..geoanalogy.blender.reading.identity import object_of
 from ..geoanalogy.blender.tree.learned import unfamiliar_of
 from ..geoanalogy.blender.view import look_at
+from ..geoanalogy.blender.writing.selection import select_only
 from ..geoanalogy.errors import InputError
 from .edit import Edit, active_operation, needs_operations
 
@@ -38,10 +39,7 @@ class GEOANALOGY_OT_show_face(Edit, bpy.types.Operator):
             item = object_of(context.scene, face.name)
             if item is None:
                 raise InputError(f"the face {face.name!r} has no object of its own; an operation has made it")
-            for other in context.selected_objects:
-                other.select_set(False)
-            item.select_set(True)
-            context.view_layer.objects.active = item
+            select_only([item])
         look_at(context, face.ring)
         return f"{face.name}: novelty {face.novelty:.2f}"
 

@@ -5,6 +5,7 @@ from bpy.props import BoolProperty, EnumProperty
 
 from ..geoanalogy.blender import names
 from ..geoanalogy.blender.tree.recording import is_mark, transfer_steps
+from ..geoanalogy.errors import InputError
 from ..geoanalogy.poses.local_mapping import TransferOptions
 from .edit import LongEdit, needs_object_mode
 
@@ -56,6 +57,8 @@ class GEOANALOGY_OT_transfer(LongEdit, bpy.types.Operator):
 
     def steps(self, context):
         """Learn, transfer and record."""
+        if self.system == "corner" and self.distance == "depth":
+            raise InputError("from a corner, distances cannot fill a polygon; choose In Proportion or Fixed")
         chosen = sorted(context.selected_objects, key=lambda item: item.name)
         marks = [item for item in chosen if is_mark(item)]
         items = [item for item in chosen if item not in marks]

@@ -17,6 +17,7 @@ from .reading.ground import read_grounds
 from .reading.planes import Plane, best_plane
 from .reading.shapes import rings_of
 from .reading.whereabouts import up_to_date
+from .writing.selection import select_only
 
 Array = NDArray[np.float64]
 
@@ -63,18 +64,29 @@ def set_label(items: Iterable[bpy.types.ID], label: str) -> int:
     Raises
     ------
     InputError
-        Where there are none, or one is linked.
+        Where there are none, one is linked, or one is a result: that has the label of its operation.
     """
     items = list(items)
     if not items:
         raise InputError("nothing is selected; select the objects to label")
     require_editable(items)
+    _refuse_results(items)
     for item in items:
         if label.strip():
             item[names.LABEL] = label.strip()
         else:
             item.pop(names.LABEL, None)
     return len(items)
+
+
+def _refuse_results(items: Iterable[bpy.types.ID]) -> None:
+    """Refuse to write on what is made anew from its example."""
+    for item in items:
+        if names.KEY in item:
+            raise InputError(
+                f"object {item.name!r} is a result of {item[names.NODE]!r}; change its example, or make results "
+                "real in step 5"
+            )
 
 
 def polygons_from_lines(
@@ -93,7 +105,7 @@ def polygons_from_lines(
     Returns
     -------
     list of bpy.types.Object
-        In the plan's collection.
+        In the plan's collection; selected, and nothing else.
 
     Raises
     ------
@@ -117,7 +129,9 @@ def polygons_from_lines(
             id = item.name if len(rings) == 1 else f"{item.name}/{i}"
             made.append((Polygon(plane.to_plane(ring)[:, :2], label=own, id=id), plane))
     plan = ensure_plan(context.scene)
-    return [_add_polygon(plan, polygon, plane) for polygon, plane in made]
+    polygons = [_add_polygon(plan, polygon, plane) for polygon, plane in made]
+    select_only(polygons)
+    return polygons
 
 
 def add_plan(context: bpy.types.Context, scene: Scene, name: str) -> list[bpy.types.Object]:
@@ -133,7 +147,7 @@ def add_plan(context: bpy.types.Context, scene: Scene, name: str) -> list[bpy.ty
     Returns
     -------
     list of bpy.types.Object
-        On the level plane through the origin.
+        On the level plane through the origin; selected, and nothing else.
 
     Raises
     ------
@@ -143,14 +157,20 @@ def add_plan(context: bpy.types.Context, scene: Scene, name: str) -> list[bpy.ty
     if not len(scene):
         raise InputError(f"{name} has no polygons; choose a file with closed outlines")
     plan = ensure_plan(context.scene, name)
+    away = np.zeros(2)
     if any(scene.offset):
-        plan[OFFSET] = list(scene.offset)
+        # Beside what came from the same region before, a file keeps its place.
+        away = np.subtract(scene.offset, plan.get(OFFSET, scene.offset))
+        plan[OFFSET] = list(plan.get(OFFSET, scene.offset))
     level = Plane()
     made = {polygon.id: _add_polygon(plan, polygon, level) for polygon in scene.polygons}
+    for item in made.values():
+        item.location.x, item.location.y = np.add(item.location[:2], away)
     for polygon in scene.polygons:
         # Blender may have given another name than the id.
         if polygon.parent in made:
             made[polygon.id][names.PARENT] = made[polygon.parent].name
+    select_only(list(made.values()))
     return list(made.values())
 
 
@@ -214,9 +234,11 @@ def take_footprints(context: bpy.types.Context, items: Sequence[bpy.types.Object
     Raises
     ------
     InputError
-        Where one has no extent on the plan, no faces to take the outline of, or is linked; then none is changed.
+        Where one has no extent on the plan, no faces to take the outline of, is linked, or is a result; then none is
+        changed.
     """
     require_editable(items)
+    _refuse_results(items)
     depsgraph = up_to_date(context)
     own = [None if kind == "none" else _own_footprint(context, item, kind, depsgraph) for item in items]
     for item, footprint in zip(items, own, strict=True):

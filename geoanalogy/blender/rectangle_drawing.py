@@ -22,6 +22,7 @@ from .tree.editing import chosen_outputs
 from .tree.evaluating import after_steps, read_surroundings
 from .tree.sites import NEARER, Site, sites_of
 from .tree.store import builds, ordered_nodes, tree_of
+from .writing.selection import select_only
 
 Array = NDArray[np.float64]
 
@@ -235,8 +236,6 @@ def add_rectangles(
         face = face_at(sites, start, np.add(start, end) / 2, end)
         wanted.append((rectangle_between(face, start, end), face.plane, target))
     holder = ensure_holder(context.scene.collection, EXAMPLES)
-    for item in context.selected_objects:
-        item.select_set(False)
     made = []
     for rectangle, plane, target in wanted:
         item = bpy.data.objects.new(f"{label} rectangle", _sheet(rectangle))
@@ -247,9 +246,8 @@ def add_rectangles(
         set_target(item, target)
         item.display_type = "WIRE"
         item.hide_render = True
-        item.select_set(True)
         made.append(item)
-    context.view_layer.objects.active = made[-1]
+    select_only(made)
     return made
 
 

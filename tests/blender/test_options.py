@@ -7,11 +7,15 @@ import bpy
 import pytest
 from flats import engine
 
-POSES = {"propagate", "choose", "array", "scatter"}
+POSE_NAMES = {"labels": "use_labels", "relation_weights": "weights"}
+
+#: How the best places are searched: chance draws places from all, as far from the best ones as its width says.
+SEARCHED = {"accumulation", "level_set_width", "direction_width", "cells", "direction_bins", "candidates"}
 
 #: Options of the engine, the operators that set them, and what is called otherwise there or is set another way.
 OPTIONS = [
-    ("poses.options", "PoseOptions", POSES, {"labels": "use_labels", "relation_weights": "weights"}),
+    ("poses.options", "PoseOptions", {"propagate", "choose", "array"}, POSE_NAMES),
+    ("poses.options", "PoseOptions", {"scatter"}, POSE_NAMES | dict.fromkeys(SEARCHED, "width")),
     ("poses.arrays", "ArrayOptions", {"array"}, {}),
     ("poses.scatter", "ScatterOptions", {"scatter"}, {}),
     ("poses.local_mapping", "TransferOptions", {"transfer"}, {}),
@@ -34,7 +38,11 @@ ELSEWHERE = {
 }
 
 
-@pytest.mark.parametrize(("module", "kind", "operators", "aliases"), OPTIONS, ids=[kind for _, kind, *_ in OPTIONS])
+@pytest.mark.parametrize(
+    ("module", "kind", "operators", "aliases"),
+    OPTIONS,
+    ids=[f"{kind} of {min(names)}" for _, kind, names, _ in OPTIONS],
+)
 def test_every_option_of_the_engine_can_be_set(module, kind, operators, aliases):
     options = {field.name for field in fields(getattr(engine(module), kind))}
     for operator in operators:
@@ -45,6 +53,10 @@ def test_every_option_of_the_engine_can_be_set(module, kind, operators, aliases)
         assert not missing
         mute = [p.identifier for p in properties if not p.description and p.type not in ("ENUM", "POINTER")]
         assert mute == []
+
+
+def test_scatter_offers_nothing_that_counts_for_nothing_there():
+    assert SEARCHED.isdisjoint(bpy.ops.geoanalogy.scatter.get_rna_type().properties.keys())
 
 
 #: What nobody sees: kinds of files, and what is drawn with the mouse.

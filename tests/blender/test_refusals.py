@@ -241,6 +241,13 @@ CASES = [
     (nothing_at_all, lambda: bpy.ops.geoanalogy.set_label(EXEC, True, label="x"), "nothing is selected"),
     (nothing_at_all, lambda: bpy.ops.geoanalogy.set_footprint(EXEC, True), "nothing is selected"),
     (nothing_at_all, lambda: bpy.ops.geoanalogy.make_polygons(EXEC, True), "nothing is selected"),
+    (a_result, lambda: bpy.ops.geoanalogy.set_label(EXEC, True, label="x"), "is a result of 'bed'; change its example"),
+    (a_result, lambda: bpy.ops.geoanalogy.set_footprint(EXEC, True), "is a result of 'bed'; change its example"),
+    (
+        bed_in_rooms,
+        lambda: bpy.ops.geoanalogy.transfer(EXEC, True, system="corner", distance="depth"),
+        "from a corner, distances cannot fill a polygon",
+    ),
     (no_extent, lambda: bpy.ops.geoanalogy.set_footprint(EXEC, True, kind="outline"), "object 'Point' has no faces"),
     (
         lambda: activate(face("Knot", [(0, 0), (2, 2), (2, 0), (0, 1)])),
@@ -280,3 +287,9 @@ def test_a_malformed_plan_is_named_and_leaves_the_scene_as_it_was(tmp_path, name
     assert everything() == before
     with pytest.raises(RuntimeError, match="nowhere"):
         bpy.ops.geoanalogy.import_plan(EXEC, True, filepath=str(tmp_path / "nowhere.geojson"))
+
+
+@pytest.mark.parametrize("operator", ["import_plan", "import_tree", "import_drawing"])
+def test_a_file_browser_in_which_nothing_was_clicked_is_named(tmp_path, operator):
+    with pytest.raises(RuntimeError, match="no file is chosen; click one in the file browser"):
+        getattr(bpy.ops.geoanalogy, operator)(EXEC, True, filepath=f"{tmp_path}/")

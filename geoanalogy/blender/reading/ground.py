@@ -140,7 +140,7 @@ def label_of(item: bpy.types.Object, scene: bpy.types.Scene) -> str:
     """
     label = labels_of(scene).get(item.name, "")
     if not label:
-        raise InputError(f"object {item.name!r} has no label; say what it is in step 1, or label its collection")
+        raise InputError(f"object {item.name!r} has no label; say what it is in step 2, or label its collection")
     return label
 
 

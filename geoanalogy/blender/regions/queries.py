@@ -13,6 +13,7 @@ from ...errors import InputError
 from .. import names
 from ..holders import ensure_holder
 from ..reading.planes import Plane, extent
+from ..writing.selection import select_only
 from .drawings import LINES, line_curve, lines_of, read_drawn_lines
 
 Array = NDArray[np.float64]
@@ -141,10 +142,7 @@ def add_query(
     item.matrix_world = Matrix(frame.tolist())
     ensure_holder(context.scene.collection, QUERIES).objects.link(item)
     choose_query(context, item, closed)
-    for other in context.selected_objects:
-        other.select_set(False)
-    item.select_set(True)
-    context.view_layer.objects.active = item
+    select_only([item])
     return item
 
 

@@ -8,7 +8,7 @@ import bpy
 from ...errors import InputError
 from ...operations.node import Link
 from .. import names
-from .store import sources_by_node, sources_of
+from .store import drawing_nodes, ordered_nodes, sources_by_node, sources_of
 
 
 def free_id(tree: bpy.types.NodeTree | None, wanted: str) -> str:
@@ -109,6 +109,24 @@ def build_on(tree: bpy.types.NodeTree, links: Sequence[Link]) -> None:
     tree.pop(names.BUILD_ON, None)
     if links:
         tree[names.BUILD_ON] = json.dumps([[link.node, link.output] for link in links])
+
+
+def neighbour_of(tree: bpy.types.NodeTree, node: bpy.types.Node) -> bpy.types.Node | None:
+    """The operation that becomes active where a node is removed.
+
+    Parameters
+    ----------
+    tree : bpy.types.NodeTree
+    node : bpy.types.Node
+
+    Returns
+    -------
+    bpy.types.Node or None
+        The one above it in the list, which it builds on in a chain; else the one below it; None without others.
+    """
+    every = [*ordered_nodes(tree), *drawing_nodes(tree)]
+    at = every.index(node)
+    return every[at - 1] if at else next(iter(every[1:]), None)
 
 
 def remove_node(tree: bpy.types.NodeTree, node: bpy.types.Node) -> None:

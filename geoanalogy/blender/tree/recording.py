@@ -421,5 +421,7 @@ def _is_of(
     node: bpy.types.Node, around: Surroundings, kind: type[Operation], items: Sequence[bpy.types.Object]
 ) -> bool:
     """Whether a node is an operation of a kind with these examples."""
-    same = [one.item for one in placed_by(node)] == list(items)
+    known = [one.item for one in placed_by(node)]
+    # Whoever gives an array an end, or takes it away, means the same array.
+    same = known == list(items) or (kind is ArrayPlacement and known[:1] == items[:1] and 1 in (len(known), len(items)))
     return same and isinstance(around.engine.node(node.name).operation, kind)

@@ -20,6 +20,7 @@ from ..reading.ground import results_collection
 from ..reading.planes import Plane
 from ..tree.store import Placed
 from .bending import Bender
+from .selection import Selection
 
 Array = NDArray[np.float64]
 
@@ -115,6 +116,7 @@ def write_results(
         for e, p in standing
         if is_instance(e) and e.mesh in by_mesh and not (e.example and e.mesh in there) and not _stands(e, p, examples)
     ]
+    before = Selection.of(results_in(holder))
     left = _leave(holder, [e.key for e, _ in shown]) if unmoved else 0
     if not left:
         delete_results(holder)
@@ -138,6 +140,7 @@ def write_results(
         _copy_children(one.item, made, holder, children)
     for item in selected:
         item.select_set(True)
+    before.restore(results_in(holder))
     return len(shown)
 
 
