@@ -1,5 +1,7 @@
 """The tags of ASCII DXF: a file as its header, layers, blocks and entities."""
 
+import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -9,6 +11,9 @@ Tag = tuple[int, str]
 
 #: The last version whose files are known (AutoCAD 2018 and later).
 _NEWEST = "AC1032"
+
+#: A letter by its number; halves of pairs are none.
+_NUMBERED_LETTER = re.compile(r"\\U\+(?![dD][89a-fA-F])([0-9a-fA-F]{4})")
 
 
 @dataclass
@@ -124,9 +129,12 @@ def as_number(text: str) -> float:
         For text that is none.
     """
     try:
-        return float(text)
+        number = float(text)
     except ValueError:
-        raise ValueError(f"{text.strip()[:30]!r} is no number") from None
+        number = math.nan
+    if not math.isfinite(number):
+        raise ValueError(f"{text.strip()[:30]!r} is no number")
+    return number
 
 
 def parse(content: bytes, file: str) -> Drawing:
@@ -207,9 +215,14 @@ def _entities(content: bytes, file: str) -> Iterator[Entity]:
                 yield entity
             entity = Entity(lines[at + 1].strip())
         elif entity is not None:
-            entity.tags.append((code, lines[at + 1]))
+            entity.tags.append((code, _spelled(lines[at + 1])))
     if entity is not None:
         yield entity
+
+
+def _spelled(text: str) -> str:
+    r"""A value with its letters in place of their numbers: before 2007 ``\U+00FC`` stood for what a country lacked."""
+    return _NUMBERED_LETTER.sub(lambda found: chr(int(found[1], 16)), text) if "\\U+" in text else text
 
 
 def _note_layer(entity: Entity, drawing: Drawing, file: str) -> None:

@@ -50,7 +50,7 @@ def read(content: bytes, file: str, label: str | None = None, rules: Sequence[Ru
     file : str
         The file's name, for messages.
     label : str, optional
-        Another property that holds the label, such as "building".
+        Another property that holds the label, such as "building"; features without it keep their ``label``.
     rules : sequence of (str, str, str)
         How features without a label get one by their other properties, see `labelling.label_by`.
 
@@ -70,7 +70,8 @@ def read(content: bytes, file: str, label: str | None = None, rules: Sequence[Ru
     except RecursionError:
         raise InputError(f"{file} is nested too deeply for GeoJSON; export it again") from None
     except ValueError as error:
-        reason = f"line {error.lineno}: {error.msg}" if isinstance(error, json.JSONDecodeError) else str(error)
+        where = f"line {error.lineno}: {error.msg}" if isinstance(error, json.JSONDecodeError) else ""
+        reason = where or "it has a number of thousands of digits"
         raise InputError(f"{file} is not valid JSON ({reason}); it may be cut off, export it again") from None
     if not isinstance(data, dict) or data.get("type") not in ("FeatureCollection", "Feature", *_AREAS):
         raise InputError(f"{file} is no GeoJSON of polygons; give a FeatureCollection of Polygon features")
@@ -82,10 +83,18 @@ def read(content: bytes, file: str, label: str | None = None, rules: Sequence[Ru
             raise InputError(f"{file} has no list of features; a FeatureCollection needs one")
     else:
         features = [data if data["type"] == "Feature" else {"type": "Feature", "geometry": data}]
+    if label is not None and features and not any(_has(feature, label) for feature in features):
+        raise InputError(f"{file} has no feature with the property {label!r} to take labels from; check its name")
     outlines: list[Outline] = []
     for number, feature in enumerate(features):
         outlines += _feature(feature, f"feature {number}", file, label, rules)
     return outlines
+
+
+def _has(feature: Any, name: str) -> bool:
+    """Whether a feature has a property."""
+    properties = feature.get("properties") if isinstance(feature, dict) else None
+    return isinstance(properties, dict) and name in properties
 
 
 def _check_schema(data: dict[str, Any], file: str) -> None:

@@ -102,6 +102,8 @@ def read(content: bytes, file: str, label: str | None = None) -> list[Outline]:
         if rings:
             properties = {"label": _label(shape.attributes, shape.layer, label), "id": shape.attributes.get("id")}
             outlines += [Outline(shape.where, parts, properties) for parts in with_holes(rings)]
+    if label not in (None, "layer") and outlines and not any(o.properties["label"] for o in outlines):
+        raise InputError(f"{file} has no shape with the attribute {label!r} to take labels from; check its name")
     return outlines
 
 

@@ -324,14 +324,16 @@ def test_files_that_are_refused(content, message):
         ),
         (polyline([(0, 0), (1, 0), (2, 0)]), "has no area"),
         (polyline([(0, 0), (1, 0)]), "2 distinct vertices; a polygon needs at least three"),
-        (polyline([(0, 0), ("nan", 0), (1, 1)]), "a coordinate that is no number; move it near the origin"),
+        (polyline([(0, 0), ("nan", 0), (1, 1)]), "LWPOLYLINE number 1 on layer 'room': 'nan' is no number; correct"),
+        (polyline([(0, 0), (1, 0), (1, 1)], bulges=["inf", 0, 0]), "'inf' is no number; correct or delete it"),
+        (polyline([(0, 0), (1, 0), (1, 1)], bulges=["nan", 0, 0]), "'nan' is no number; correct or delete it"),
         (polyline([(0, 0), ("1e300", 0), (1, 1)]), r"more than 1e\+09 units from the origin"),
         (
             polyline([(0, 0), (9, 0), (9, 9), (0, 9), (0, 0.2)], closed=False),
             "the ring is open, its ends are 0.2 units apart",
         ),
         (entity("CIRCLE", (40, 0)), "CIRCLE number 1 on layer 'room': its radius is 0"),
-        (entity("ARC", (40, "nan")), "its radius is nan"),
+        (entity("ARC", (40, "nan")), "'nan' is no number"),
         (entity("ELLIPSE", (40, 0.5)), "its axes have no length"),
         (spline([(0, 0), (1, 1)], [0, 1]), "its 2 control points, 2 knots and degree 3 make no spline"),
         (
@@ -427,3 +429,11 @@ def _read_or_refuse(content):
         make_scene("plan.dxf", dxf.read(content, "plan.dxf"))
     except InputError as error:
         assert str(error).startswith("plan.dxf")
+
+
+@pytest.mark.parametrize(
+    ("written", "read"),
+    [(r"K\U+00FCche", "Küche"), (r"\U+5BDD\U+5BA4", "寝室"), (r"\U+00", r"\U+00"), (r"\U+D800", r"\U+D800")],
+)
+def test_letters_written_by_their_numbers_are_read(written, read):
+    assert only(polyline(SQUARE, layer=written)).label == read

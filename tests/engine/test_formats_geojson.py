@@ -72,6 +72,18 @@ def test_any_property_can_be_the_label():
     assert [p.label for p in read(data).polygons] == ["", "road", ""]
 
 
+def test_a_number_without_end_is_named_in_our_own_words():
+    content = b'{"type": "Feature", "geometry": {"type": "Polygon", "coordinates": [[[1' + b"0" * 5000 + b", 0]]]}}"
+    with pytest.raises(InputError, match=r"not valid JSON \(it has a number of thousands of digits\)"):
+        geojson.read(content, "plan.geojson")
+
+
+def test_a_label_that_no_feature_has_is_named():
+    data = collection(feature(label="road"), feature())
+    with pytest.raises(InputError, match=r"has no feature with the property 'bilding' to take labels from; check"):
+        read(data, label="bilding")
+
+
 def test_holes_and_heights():
     rings = [[[*v, 7.5] for v in np.vstack([r, r[:1]]).tolist()] for r in (HOLED_ROOM, COURTYARD)]
     (room,) = read(collection(feature(rings))).polygons

@@ -385,7 +385,6 @@ def test_labels(body, label):
         ("inkscape:label", "Room"),
         ("layer", "plan"),
         ("data-use", "sleep"),
-        ("none", ""),
     ],
 )
 def test_label_from_a_stated_place(source, label):
@@ -431,6 +430,15 @@ def test_closed_strokes_repeat_their_first_point():
 
 
 # What is refused
+
+
+def test_an_attribute_that_no_shape_has_is_named():
+    content = b'<svg xmlns="http://www.w3.org/2000/svg"><rect class="bed" width="5" height="4"/></svg>'
+    assert [o.properties["label"] for o in svg.read(content, "plan.svg", "class")] == ["bed"]
+    with pytest.raises(
+        InputError, match=r"plan\.svg has no shape with the attribute 'clas' to take labels from; check"
+    ):
+        svg.read(content, "plan.svg", "clas")
 
 
 def refused(content, message):
