@@ -1,13 +1,12 @@
-"""The operations tree: recorded edits that are applied to any scene, and their JSON (section 5.6)."""
+"""The operations tree: recorded edits that are applied to any scene (section 5.6)."""
 
 import heapq
-import json
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from ..arguments import given, is_whole, listed, path_of, shown
+from ..arguments import given, is_whole, listed, shown
 from ..errors import InputError
 from ..geometry.mesh import Mesh
 from ..geometry.scene import Scene
@@ -17,14 +16,7 @@ from .applied import Applied
 from .evaluation import Evaluations
 from .layout import Layout, merge
 from .node import Link, Node
-
-SCHEMA = "geoanalogy.operations"
-
-#: How a stored tree of each version becomes one of the next: the first from version 1 to 2, and so on.
-MIGRATIONS: tuple[Callable[[Mapping[str, Any]], Mapping[str, Any]], ...] = ()
-
-#: The version that is written.
-VERSION = 1 + len(MIGRATIONS)
+from .storage import read_json, stored_nodes, with_schema, write_json
 
 
 class OperationsTree:
@@ -332,7 +324,7 @@ class OperationsTree:
         -------
         dict
         """
-        return {"schema": f"{SCHEMA}/{VERSION}", "nodes": [node.to_dict() for node in self.nodes]}
+        return with_schema([node.to_dict() for node in self.nodes])
 
     @classmethod
     def from_dict(cls, plain: Any, name: str = "the operations tree") -> "OperationsTree":
@@ -353,18 +345,9 @@ class OperationsTree:
         InputError
             For anything but a tree of this version, naming the node.
         """
-        schema = plain.get("schema") if isinstance(plain, Mapping) else None
-        kind, _, version = schema.partition("/") if isinstance(schema, str) else ("", "", "")
-        if kind != SCHEMA or not version.isdecimal():
-            raise InputError(f"{name} is no operations tree; choose a file that GeoAnalogy has saved")
-        if int(version) > VERSION:
-            raise InputError(f"{name} was saved by a newer version of GeoAnalogy ({schema}); update the add-on")
-        for step in MIGRATIONS[max(int(version), 1) - 1 :]:
-            plain = step(plain)
-        if int(version) < 1 or not isinstance(plain.get("nodes"), list):
-            raise InputError(f"{name} is damaged: it has no list of nodes; save it again")
+        nodes = stored_nodes(plain, name)
         try:
-            return cls([Node.from_dict(node) for node in plain["nodes"]])
+            return cls([Node.from_dict(node) for node in nodes])
         except InputError as error:
             raise InputError(f"{name}: {error}") from None
 
@@ -385,19 +368,7 @@ class OperationsTree:
         InputError
             Where the file cannot be read, is cut off, or holds no tree of this version.
         """
-        path = path_of(path)
-        name = path.name
-        try:
-            plain = json.loads(path.read_text(encoding="utf-8"))
-        except OSError as error:
-            raise InputError(f"{name} cannot be read: {error.strerror or error}; check the path") from None
-        except (UnicodeDecodeError, RecursionError):
-            raise InputError(f"{name} is no JSON text; choose a file that GeoAnalogy has saved") from None
-        except json.JSONDecodeError as error:
-            raise InputError(
-                f"{name} is damaged or cut off at line {error.lineno} ({error.msg}); save it again"
-            ) from None
-        return cls.from_dict(plain, name)
+        return cls.from_dict(*read_json(path))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the tree to a file. Where that fails, a file of that name stays as it was.
@@ -411,15 +382,4 @@ class OperationsTree:
         InputError
             Where the file cannot be written.
         """
-        path = path_of(path)
-        if not path.name:
-            raise InputError("the path of the operations tree is empty; give the name of a file")
-        written = json.dumps(self.to_dict(), indent=1, ensure_ascii=False, allow_nan=False)
-        part = path.with_name(path.name + ".part")
-        try:
-            part.write_text(written + "\n", encoding="utf-8")
-            os.replace(part, path)
-        except OSError as error:
-            raise InputError(
-                f"{path.name} cannot be written: {error.strerror or error}; choose another place"
-            ) from None
+        write_json(self.to_dict(), path)

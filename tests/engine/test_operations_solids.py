@@ -521,8 +521,8 @@ def test_stored_trees_of_older_versions_are_migrated(tree, monkeypatch):
     plain = tree.to_dict()
     older = {**plain, "steps": plain["nodes"]}
     del older["nodes"]
-    monkeypatch.setattr("geoanalogy.operations.tree.MIGRATIONS", (lambda p: {**p, "nodes": p["steps"]},))
-    monkeypatch.setattr("geoanalogy.operations.tree.VERSION", 2)
+    monkeypatch.setattr("geoanalogy.operations.storage.MIGRATIONS", (lambda p: {**p, "nodes": p["steps"]},))
+    monkeypatch.setattr("geoanalogy.operations.storage.VERSION", 2)
     assert OperationsTree.from_dict(older).to_dict()["nodes"] == plain["nodes"]
     newest = {**plain, "schema": "geoanalogy.operations/2"}
     assert OperationsTree.from_dict(newest).to_dict() == newest

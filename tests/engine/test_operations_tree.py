@@ -12,7 +12,7 @@ from strategies import similarities
 
 from geoanalogy import Cancelled, InputError, OperationsTree, Polygon, Pose, Scene
 from geoanalogy.operations.node import Link, Node
-from geoanalogy.operations.tree import SCHEMA, VERSION
+from geoanalogy.operations.storage import SCHEMA, VERSION
 
 
 @pytest.fixture(scope="module")
@@ -241,6 +241,8 @@ def test_where_saving_fails_the_file_stays(chain, tmp_path, monkeypatch):
         ("[]", "house.json is no operations tree; choose a file that GeoAnalogy has saved"),
         ('{"schema": "other/1"}', "house.json is no operations tree"),
         ('{"schema": 1}', "house.json is no operations tree"),
+        ('{"schema": "geoanalogy.operations/' + "9" * 5000 + '"}', "house.json was saved by a newer version"),
+        ('{"schema": 1' + "0" * 5000 + "}", "house.json is no JSON text"),
         ('{"schema": "geoanalogy.operations/2", "nodes": []}', "saved by a newer version of GeoAnalogy .*update"),
         ('{"schema": "geoanalogy.operations/0", "nodes": []}', "house.json is damaged: it has no list of nodes"),
         ('{"schema": "geoanalogy.operations/1"}', "house.json is damaged: it has no list of nodes"),

@@ -7,7 +7,7 @@ import bpy
 
 from ...operations.node import Node
 from ...operations.rectangle_placement import RectanglePlacement
-from ...operations.tree import SCHEMA, VERSION
+from ...operations.storage import SCHEMA, VERSION
 from .. import names
 from ..reading.planes import Plane
 from .plain import to_property
