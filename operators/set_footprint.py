@@ -1,9 +1,9 @@
 """Give the selected objects footprints of their own."""
 
 import bpy
-from bpy.props import EnumProperty
+from bpy.props import EnumProperty, FloatProperty
 
-from ..geoanalogy.blender.plan_making import take_footprints
+from ..geoanalogy.blender.plan_making import SQUARE, take_footprints
 from ..geoanalogy.errors import InputError
 from .edit import Edit, needs_object_mode
 
@@ -20,9 +20,12 @@ class GEOANALOGY_OT_set_footprint(Edit, bpy.types.Operator):
             ("hull", "Convex Hull", "The convex hull of all points, as it is now"),
             ("outline", "Outline", "The exact outline of the faces seen from above"),
             ("box", "Box", "The box along the object's own axes"),
+            ("square", "Square", "A square about the origin, for what has no extent: a light, an empty"),
             ("none", "Automatic", "None of its own: the convex hull of whatever the object is at the time"),
         ],
     )
+
+    size: FloatProperty(name="Size", description="Side of the square", min=1e-4, default=SQUARE, subtype="DISTANCE")
 
     @classmethod
     def poll(cls, context):
@@ -32,8 +35,15 @@ class GEOANALOGY_OT_set_footprint(Edit, bpy.types.Operator):
         """Take the footprints."""
         if not context.selected_objects:
             raise InputError("nothing is selected; select the objects that need a footprint")
-        take_footprints(context, context.selected_objects, self.kind)
+        take_footprints(context, context.selected_objects, self.kind, self.size)
         return f"{len(context.selected_objects)} footprints"
+
+    def draw(self, context):
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "kind")
+        if self.kind == "square":
+            layout.prop(self, "size")
 
 
 def register():

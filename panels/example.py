@@ -5,6 +5,9 @@ import bpy
 from ..geoanalogy.blender import names
 from .base import SidebarPanel, hint
 
+#: Kinds of objects without an extent of their own.
+POINTS = ("ARMATURE", "CAMERA", "LATTICE", "LIGHT", "LIGHT_PROBE", "SPEAKER")
+
 
 class GEOANALOGY_PT_example(SidebarPanel, bpy.types.Panel):
     """Put an object where it belongs, and say what it is."""
@@ -27,7 +30,7 @@ class GEOANALOGY_PT_example(SidebarPanel, bpy.types.Panel):
             layout.prop(item, f'["{names.LABEL}"]', text="Label")
         else:
             layout.operator("geoanalogy.set_label", text="Label It", icon="BOOKMARKS").target = "OBJECTS"
-        own = "its own" if names.FOOTPRINT in item else "convex hull"
+        own = "its own" if names.FOOTPRINT in item else "convex hull" if item.type not in POINTS else "none yet"
         layout.operator_menu_enum("geoanalogy.set_footprint", "kind", text=f"Footprint: {own}", icon="MOD_OUTLINE")
 
 

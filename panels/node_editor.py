@@ -6,6 +6,7 @@ from ..geoanalogy.blender import names
 from ..geoanalogy.blender.tree.evaluating import evaluations
 from ..geoanalogy.blender.tree.new_nodes import KINDS
 from ..geoanalogy.blender.tree.node_tree import ICONS
+from ..geoanalogy.blender.tree.store import builds
 from .base import paragraph
 
 
@@ -51,11 +52,15 @@ class GEOANALOGY_PT_tree(bpy.types.Panel):
     def draw(self, context):
         layout = self.layout
         tree = context.space_data.node_tree
+        if names.PROBLEM in tree:
+            paragraph(layout, str(tree[names.PROBLEM]), "ERROR")
         layout.prop(tree, "seed")
-        layout.prop(tree, "merged")
+        if builds(tree):
+            layout.prop(tree, "merged")
         seconds = sum(float(node.get(names.SECONDS, 0.0)) for node in tree.nodes)
         layout.label(text=f"{len(tree.nodes)} operations, {seconds:.2f} s", icon="TIME")
-        layout.label(text=f"{evaluations.hit_rate:.0%} of all surfaces were known", icon="COPYDOWN")
+        if builds(tree):
+            layout.label(text=f"{evaluations.hit_rate:.0%} of all surfaces were known", icon="COPYDOWN")
         row = layout.row(align=True)
         row.operator("geoanalogy.import_tree", text="Import", icon="IMPORT")
         row.operator("geoanalogy.export_tree", text="Export", icon="EXPORT")

@@ -27,6 +27,12 @@ PLAN = "Plan"
 #: On the plan's collection: what is added to its coordinates to have those of the file it came from.
 OFFSET = "ga_offset"
 
+#: Side of a square footprint, scene units: about what a lamp takes up.
+SQUARE = 0.5
+
+#: Area of an object's own unit square seen from above, as a share of its area, below which it is seen from the edge.
+UPRIGHT = 1e-4
+
 
 def ensure_plan(scene: bpy.types.Scene, name: str = PLAN) -> bpy.types.Collection:
     """The plan collection of a scene, made where there is none.
@@ -220,27 +226,31 @@ def _filled_curve(name: str | None, rings: Sequence[Array], plane: Plane) -> bpy
     return curve
 
 
-def take_footprints(context: bpy.types.Context, items: Sequence[bpy.types.Object], kind: str) -> None:
+def take_footprints(
+    context: bpy.types.Context, items: Sequence[bpy.types.Object], kind: str, size: float = SQUARE
+) -> None:
     """Give objects footprints of their own.
 
     Parameters
     ----------
     context : bpy.types.Context
     items : sequence of bpy.types.Object
-    kind : {"hull", "outline", "box", "none"}
-        The convex hull of what each object is now; the exact outline of its faces; the box along its axes; or none of
-        its own any more.
+    kind : {"hull", "outline", "box", "square", "none"}
+        The convex hull of what each object is now; the exact outline of its faces; the box along its axes; a square
+        about its origin, for a light or an empty; or none of its own any more.
+    size : float
+        Side of the square, scene units.
 
     Raises
     ------
     InputError
-        Where one has no extent on the plan, no faces to take the outline of, is linked, or is a result; then none is
-        changed.
+        Where one has no extent on the plan, no faces to take the outline of, stands upright, is linked, or is a
+        result; then none is changed.
     """
     require_editable(items)
     _refuse_results(items)
     depsgraph = up_to_date(context)
-    own = [None if kind == "none" else _own_footprint(context, item, kind, depsgraph) for item in items]
+    own = [None if kind == "none" else _own_footprint(context, item, kind, size, depsgraph) for item in items]
     for item, footprint in zip(items, own, strict=True):
         if footprint is None:
             item.pop(names.FOOTPRINT, None)
@@ -249,20 +259,26 @@ def take_footprints(context: bpy.types.Context, items: Sequence[bpy.types.Object
 
 
 def _own_footprint(
-    context: bpy.types.Context, item: bpy.types.Object, kind: str, depsgraph: bpy.types.Depsgraph
+    context: bpy.types.Context, item: bpy.types.Object, kind: str, size: float, depsgraph: bpy.types.Depsgraph
 ) -> list[float]:
     """A footprint in an object's own coordinates, as the custom property takes it."""
     plane = _plane_below(context, item, depsgraph)
-    ring = outline_of(item, plane, depsgraph) if kind == "outline" else hull_of(item, plane, depsgraph)
     pose = pose_of(item, plane)
+    if kind == "square":
+        ring = pose.to_scene(size / 2 * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]))
+    else:
+        ring = outline_of(item, plane, depsgraph) if kind == "outline" else hull_of(item, plane, depsgraph)
     if kind == "box":
         own = pose.to_frame(ring)
         (x0, y0), (x1, y1) = own.min(axis=0), own.max(axis=0)
         ring = pose.to_scene([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
-    height = plane.to_plane([np.array(item.matrix_world)[:3, 3]])[0, 2]
-    world = plane.to_world(np.column_stack([ring, np.full(len(ring), height)]))
-    local = np.column_stack([world, np.ones(len(world))]) @ np.linalg.inv(np.array(item.matrix_world)).T
-    return [float(v) for v in local[:, :2].ravel()]
+    # The object may be tilted: its own x and y are those that are seen at the ring from above.
+    frame = np.array(item.matrix_world)
+    origin, *ends = plane.to_plane(frame[:3, 3] + np.vstack([np.zeros(3), frame[:3, :2].T]))[:, :2]
+    axes = np.column_stack(ends) - origin[:, None]
+    if abs(np.linalg.det(axes)) <= UPRIGHT * np.linalg.norm(frame[:3, 0]) * np.linalg.norm(frame[:3, 1]):
+        raise InputError(f"object {item.name!r} stands upright on its own y axis; turn it to give it a footprint")
+    return [float(v) for v in np.linalg.solve(axes, (ring - origin).T).T.ravel()]
 
 
 def _plane_below(context: bpy.types.Context, item: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Plane:

@@ -141,7 +141,7 @@ def hull_of(item: bpy.types.Object, plane: Plane, depsgraph: bpy.types.Depsgraph
     hull = shapely.convex_hull(shapely.MultiPoint(plane.to_plane(solid_points(item, depsgraph))[:, :2]))
     hull = shapely.simplify(hull, HULL_DETAIL * extent(shapely.get_coordinates(hull)))
     if hull.geom_type != "Polygon" or not hull.area:
-        raise InputError(f"object {item.name!r} has no extent on the plan; give it a footprint in step 2")
+        raise InputError(f"object {item.name!r} has no extent on the plan; give it a square footprint in step 2")
     return shapely.get_coordinates(hull)[:-1]
 
 
