@@ -176,7 +176,8 @@ def build_parser() -> argparse.ArgumentParser:
         prog="geoanalogy", description="Edit propagation by geometric analogy.", epilog=f"Exit codes: {codes}."
     )
     parser.add_argument("--version", action="version", version=f"GeoAnalogy {release}")
-    parser.add_argument("--quiet", action="store_true", help="no progress lines")
+    silence = "no progress lines"
+    parser.add_argument("--quiet", action="store_true", help=silence)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     replay = commands.add_parser("replay", help="replay the operations of a .blend from its examples")
@@ -200,6 +201,8 @@ def build_parser() -> argparse.ArgumentParser:
     city.add_argument("--library", type=blend, metavar="LIB.blend", help="where library objects are, by their names")
     add_options(city)
     city.set_defaults(run=_apply)
+    for command in (replay, city):  # before the command or among its options
+        command.add_argument("--quiet", action="store_true", default=argparse.SUPPRESS, help=silence)
     return parser
 
 

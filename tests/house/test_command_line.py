@@ -186,9 +186,10 @@ def test_progress_repeats_no_line_and_stays_within_the_scale(capsys):
     assert capsys.readouterr().err.splitlines() == ["[  0%] placing", "[ 50%] placing", "[100%] placing"]
 
 
-def test_quiet_prints_no_progress(replay, capsys):
+@pytest.mark.parametrize(("before", "after"), [(["--quiet"], []), ([], ["--quiet"])])
+def test_quiet_prints_no_progress(replay, capsys, before, after):
     replay.action = lambda options: (options["progress"](0.5, "half"), replay.write(options))
-    assert main(["--quiet", "replay", "in.blend", "--output", "out.blend"]) == ExitCode.DONE
+    assert main([*before, "replay", "in.blend", "--output", "out.blend", *after]) == ExitCode.DONE
     assert capsys.readouterr().err == ""
 
 

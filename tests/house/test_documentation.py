@@ -55,6 +55,17 @@ def test_the_examples_of_the_documents_are_true(path, tmp_path, monkeypatch):
     assert not result.failed
 
 
+@pytest.mark.parametrize("path", DOCUMENTS, ids=name_of)
+def test_the_files_that_documents_name_are_there(path):
+    text = path.read_text(encoding="utf-8")
+    folders = "benchmarks|docs|geoanalogy|operators|panels|sample_blends|scripts|tests"
+    named = re.findall(rf"`((?:{folders})(?:/[\w-]+)*(?:\.(?:py|md|png|blend|json|geojson))?)`", text)
+    linked = re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", text)
+    missing = [name for name in named if not (ROOT / name).exists() and not (ROOT / f"{name}.py").exists()]
+    missing += [name for name in linked if not (path.parent / name).exists()]
+    assert not missing
+
+
 @pytest.mark.parametrize(
     ("path", "function"),
     [pytest.param(*pair, id=f"{module_name(pair[0])}.{pair[1].name}") for pair in public_functions()],
