@@ -20,6 +20,7 @@ from ..reading.ground import results_collection
 from ..reading.planes import Plane
 from ..tree.store import Placed
 from .bending import Bender
+from .local_view import show_locally
 from .selection import Selection
 
 Array = NDArray[np.float64]
@@ -140,6 +141,7 @@ def write_results(
         _copy_children(one.item, made, holder, children)
     for item in selected:
         item.select_set(True)
+    show_locally(results_in(holder), [one.item for one in by_mesh.values()])
     before.restore(results_in(holder))
     return len(shown)
 
