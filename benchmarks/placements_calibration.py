@@ -28,6 +28,7 @@ from geoanalogy.placements.boxes import union_overlap
 from geoanalogy.placements.candidates import predictions
 from geoanalogy.placements.company import AMONG, Company
 from geoanalogy.placements.evidence import SINGLE
+from geoanalogy.placements.model import SEVERAL
 from geoanalogy.placements.one_each import ONE_EACH
 from geoanalogy.placements.selection import rescaled, useful_cut, without_overlaps
 
@@ -284,7 +285,8 @@ def f1(case, judgements, cuts):
                 of_one.append(p["iou"][best].max())
         index = without_overlaps(p["boxes"], certainty, p["present"], 0.15)
         kept.append(certainty[index])
-        scores.append(rescaled(certainty[index], useful_cut(certainty[index], p["judge"] == "alone")))
+        cut = useful_cut(certainty[index], p["judge"] == "alone", len(p["present"]) >= SEVERAL)
+        scores.append(rescaled(certainty[index], cut))
         iou.append(p["iou"][index])
     kept, iou, scores = np.concatenate(kept), np.concatenate(iou), np.concatenate(scores)
     order = np.argsort(-scores, kind="stable")

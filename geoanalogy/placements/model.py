@@ -36,6 +36,8 @@ Array = NDArray[np.float64]
 SURVEYS_KEPT = 64
 #: By how much the certainty of the one placement of a parent exceeds that of all others: it goes before them.
 FOREMOST = 1 + 1e-9
+#: Examples in one arrangement from which they may be all that is meant there: one alone shows no more than its kind.
+SEVERAL = 2
 #: What a stored model calls its form.
 SCHEMA = "geoanalogy.placement/1"
 
@@ -278,7 +280,7 @@ class PlacementModel:
             certainty[seen.chosen] = certainty.max() * FOREMOST
         wanted = certainty * target / lesson.targets.max()  # what is like a counter-example is no use at all
         apart = without_overlaps(seen.boxes, wanted, drawn, self.options.allow_overlaps)
-        cut = useful_cut(wanted[apart], lesson.one_each and not len(drawn))
+        cut = useful_cut(wanted[apart], lesson.one_each and not len(drawn), len(drawn) >= SEVERAL)
         return np.minimum(rescaled(certainty, cut), 1.0) * target
 
     def _faces(self, arrangement: Arrangement, boxes: Array) -> NDArray[np.bool_]:

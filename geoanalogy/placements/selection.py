@@ -107,15 +107,18 @@ def shape_factor(sizes: Array, taught: Array, aspect_tolerance: float, area_tole
 CUTS = (0.1, 0.45)
 #: The least one where exactly one placement per parent was taught.
 CUT_OF_ONE = 0.02
+#: The one where nothing is worth showing: of candidates, none or so few that are likelier than not.
+LIKELIER_THAN_NOT = 0.5
 
 
-def useful_cut(certainty: Array, one: bool) -> float:
+def useful_cut(certainty: Array, one: bool, perhaps_none: bool) -> float:
     """The certainty from which results are of more use than harm.
 
     Whoever checks results weighs wrong ones against missed ones. The balanced measure of both, the harmonic mean of
     precision and recall, is largest in expectation when everything is kept whose certainty is above half of that
     largest value: where an arrangement is clear, doubtful candidates are left out; where all is doubtful, the better
-    ones are worth showing.
+    ones are worth showing. Where it may be that nothing is meant, showing nothing is right as often as all candidates
+    are wrong; where that is likelier than the largest value is large, none is worth showing.
 
     Parameters
     ----------
@@ -123,6 +126,8 @@ def useful_cut(certainty: Array, one: bool) -> float:
         Of candidates that do not overlap.
     one : bool
         Whether there is one placement for certain: every example was the only one in its parent.
+    perhaps_none : bool
+        Whether there may be none: examples were drawn here, and may be all that is meant.
 
     Returns
     -------
@@ -135,6 +140,8 @@ def useful_cut(certainty: Array, one: bool) -> float:
     if one:
         # One is sure to be right: the best candidate is always worth showing.
         return float(np.clip(min(expected.max(initial=0.0) / 2, falling.max(initial=0.0)), least, CUTS[1]))
+    if perhaps_none and np.prod(1.0 - falling) > expected.max(initial=0.0):
+        return LIKELIER_THAN_NOT
     return float(np.clip(expected.max(initial=0.0) / 2, least, CUTS[1]))
 
 

@@ -15,6 +15,7 @@ from .evidence import like_parents, single_evidence
 from .lattice import regular
 from .lesson import Lesson, Match
 from .one_each import copies, copy_evidence
+from .own_elements import astray
 from .regularity import beats, rhythm, rows_of
 from .selection import shape_factor, thin, without_overlaps
 from .signature import Signature, signature
@@ -234,7 +235,7 @@ def search(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
         boxes = proposed[_worth_a_look(proposed, worth)]
     else:
         boxes = proposed[thin(proposed, worth, SAME_ALONE, LOOKED_AT_ALONE)]
-    similar, contrast, exact, single = look(lesson, arrangement, boxes, present)
+    similar, contrast, exact, strays, single = look(lesson, arrangement, boxes, present)
     company = Company(boxes, present, anchors_of(lesson, arrangement, np.concatenate([boxes, present])))
     among = company.evidence(similar[:, lesson.positive].max(axis=1, initial=0.0))
     first = judge.look.certainty(np.hstack([single, among]))
@@ -243,11 +244,12 @@ def search(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
         more = _continued(boxes, first, present, arrangement)
         more = more[_unlike_shown(more, shown)]
     if len(more):
-        more_similar, more_contrast, more_exact, more_single = look(lesson, arrangement, more, present)
+        more_similar, more_contrast, more_exact, more_strays, more_single = look(lesson, arrangement, more, present)
         boxes = np.concatenate([boxes, more])
         similar = np.concatenate([similar, more_similar])
         contrast = np.concatenate([contrast, more_contrast])
         exact = np.concatenate([exact, more_exact])
+        strays = np.concatenate([strays, more_strays])
         single = np.concatenate([single, more_single])
         company = Company(boxes, present, anchors_of(lesson, arrangement, np.concatenate([boxes, present])))
         among = company.evidence(similar[:, lesson.positive].max(axis=1, initial=0.0))
@@ -258,7 +260,7 @@ def search(lesson: Lesson, arrangement: Arrangement, present: Array, shown: Arra
     # What keeps exactly to what examples keep to exactly follows the rule, whatever the weights say; the rest does not.
     favour = EXACT ** np.clip(len(lesson.positive) - 1, 1, MOST_FAVOURS)
     exactness = np.where(np.isnan(exact), 0.0, (1 - exact) * np.log(INEXACT) + exact * np.log(favour))
-    certainty = more_certain(certainty, exactness)
+    certainty = more_certain(certainty, exactness + strays)
     follows = exact >= 1 - EQUALLY_ALIKE
     if follows.any():
         repeats_it = union_overlap(boxes, boxes[follows]).max(axis=1) >= SAME
@@ -357,8 +359,8 @@ def one_of(lesson: Lesson, boxes: Array, value: Array) -> tuple[int, Array]:
     return chosen, np.mean([np.take_along_axis(ordered, at, axis=0)[0] for at in either], axis=0)
 
 
-def look(lesson: Lesson, arrangement: Arrangement, boxes: Array, present: Array) -> tuple[Array, Array, Array, Array]:
-    """Similarities (n, m), those by contrast, exactness (n,) and evidence (n, f) of boxes from all their relations.
+def look(lesson: Lesson, arrangement: Arrangement, boxes: Array, present: Array) -> tuple[Array, ...]:
+    """What all relations of boxes say of them.
 
     Parameters
     ----------
@@ -369,14 +371,19 @@ def look(lesson: Lesson, arrangement: Arrangement, boxes: Array, present: Array)
 
     Returns
     -------
-    similarities, contrast, exactness, evidence : ndarray
+    similarities, contrast : ndarray of shape (n, m)
+        To every example; and by what tells examples and counter-examples apart.
+    exactness, strays : ndarray of shape (n,)
+        See `Habits.constructed` and `astray`.
+    evidence : ndarray of shape (n, f)
     """
     seen = signature(arrangement, boxes, lesson.options.neighbours, lesson.labels)
     matches = lesson.match(seen)
     evidence = _evidence(lesson, arrangement, boxes, seen, matches, present, lesson.options.neighbours)
     similar = lesson.similarities(matches)
     contrast = similar if lesson.contrast is lesson else lesson.contrast.similarities(lesson.contrast.match(seen))
-    return similar, contrast, lesson.habits.constructed(seen), evidence
+    strays = astray(lesson, arrangement, matches, present)
+    return similar, contrast, lesson.habits.constructed(seen), strays, evidence
 
 
 def _unlike_shown(boxes: Array, shown: Array) -> NDArray[np.bool_]:
