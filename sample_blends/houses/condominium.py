@@ -13,14 +13,22 @@ from .recorder import Box, Recorder, Sheet
 
 PLOT = "condominium"
 
+#: From floor to floor, and what walls are higher than their floors, metres.
+STOREY, ABOVE = 3.1, 1.0
+
+
+def tall(storeys: int) -> float:
+    """Height of walls, so that their front and their rear have the same rows."""
+    return STOREY * storeys + ABOVE
+
 
 def body(s: Sheet) -> Sequence[Box]:
     x0, y0, x1, _ = s.edges
-    return [(x0 + 3, y0 + 4, x1 - 3, y0 + 16)]
+    return [(x0 + 2, y0 + 4, x1 - 4, y0 + 16)]
 
 
 def wing(s: Sheet) -> Sequence[Box]:
-    return [(x1 - 10, y1 - 1.0, x1, y1 + 6) for _, _, x1, y1 in s.boxes("block")]
+    return [(x1 - 10, y1 - 1.0, x1, y1 + 4.4) for _, _, x1, y1 in s.boxes("block")]
 
 
 def risalit(s: Sheet) -> Sequence[Box]:
@@ -39,7 +47,7 @@ def entrance(s: Sheet) -> Sequence[Box]:
 
 def street_windows(s: Sheet) -> Sequence[Box]:
     x0, y0, x1, y1 = s.edges
-    return [(x0 + 1.2, y0 + 1.2, x1 - 1.2, y1 - 1.0)] if s.width > 4 else []
+    return [(x0 + 1.2, y0 + 1.2, x1 - 1.2, y1 - 1.1)] if s.width > 4 else []
 
 
 def stair_windows(s: Sheet) -> Sequence[Box]:
@@ -49,7 +57,7 @@ def stair_windows(s: Sheet) -> Sequence[Box]:
 
 def side_windows(s: Sheet) -> Sequence[Box]:
     x0, y0, x1, y1 = s.edges
-    return [(x0 + 1.8, y0 + 1.2, x1 - 1.8, y1 - 1.0)] if s.width > 8 else []
+    return [(x0 + 1.8, y0 + 1.2, x1 - 1.8, y1 - 1.1)] if s.width > 8 else []
 
 
 def loggias(s: Sheet) -> Sequence[Box]:
@@ -71,12 +79,13 @@ def plant(s: Sheet) -> Sequence[Box]:
 
 def parking(s: Sheet) -> Sequence[Box]:
     x0, _, x1, y1 = s.edges
-    return [(x0 + 1, y1 - 5.5, x1 - 1, y1 - 0.5)]
+    return [(x0 + 1, y1 - 5.5, x1 - 0.4, y1 - 0.5)]
 
 
-def hedge(s: Sheet) -> Sequence[Box]:
-    x0, y0, x1, _ = s.edges
-    return [(x0 + 0.3, y0 + 0.3, (x0 + x1) / 2 - 2.0, y0 + 1.0), ((x0 + x1) / 2 + 2.0, y0 + 0.3, x1 - 0.3, y0 + 1.0)]
+def drive(s: Sheet) -> Sequence[Box]:
+    """Along the right side, from the street into the parking."""
+    _, y0, x1, _ = s.edges
+    return [(x1 - 3.4, y0, x1 - 0.4, p[1] + 0.4) for p in s.boxes("parking")]
 
 
 def walk(s: Sheet) -> Sequence[Box]:
@@ -84,21 +93,37 @@ def walk(s: Sheet) -> Sequence[Box]:
     return [((b[0] + b[2]) / 2 - 1.2, y0, (b[0] + b[2]) / 2 + 1.2, b[1]) for b in s.boxes("stairs")]
 
 
+def left_hedge(s: Sheet) -> Sequence[Box]:
+    x0, y0, _, _ = s.edges
+    return [(x0 + 0.3, y0 + 0.3, w[0] - 0.8, y0 + 1.0) for w in s.boxes("walk")]
+
+
+def right_hedge(s: Sheet) -> Sequence[Box]:
+    _, y0, _, _ = s.edges
+    return [(w[2] + 0.8, y0 + 0.3, d[0] - 0.6, y0 + 1.0) for w in s.boxes("walk") for d in s.boxes("drive")]
+
+
 def record(r: Recorder) -> None:
     """Record the operations on the plots of the recorder's scene."""
     steep = Roof("mansard", float(np.radians(15.0)), float(np.radians(68.0)), 2.4)
     r.place("block", PLOT, body, 4, max_per={PLOT: 1})
     r.place("stairs", PLOT, risalit, 4, max_per={PLOT: 1})
-    old, new = r.select(PLOT, (1.0, 1.0))
-    r.at = (old,)
-    r.extrude("block", 12.4, (0.77, 1.23), roof=steep, side="wall")
-    mansards = r.at
-    r.at = (new,)
+    low, high, lower, higher = r.select(PLOT, (1.0, 1.0, 1.0, 1.0))
+    ends = []
+    for chosen, storeys in ((low, 3), (high, 4)):
+        r.at = (chosen,)
+        r.extrude("block", tall(storeys), roof=steep, side="wall")
+        ends += r.at
+    r.at = (lower, higher)
     r.place("wing", PLOT, wing, 4, max_per={PLOT: 1})
-    r.extrude("block", 12.4, (0.77, 1.23), side="wall", top="terrace")
-    r.extrude("wing", 9.3, (0.7, 1.0), side="wall", top="wing terrace")
-    r.at = (*mansards, *r.at)
-    r.extrude("stairs", 8.9, side="stair wall", top="porch roof")
+    r.extrude("wing", tall(2), side="wall", top="wing terrace")
+    (winged,) = r.at
+    for chosen, storeys in ((lower, 4), (higher, 5)):
+        r.at = (chosen,)
+        r.extrude("block", tall(storeys), side="wall", top="terrace")
+        ends += r.at
+    r.at = (*ends, winged)
+    r.extrude("stairs", 8.9, side="stair wall", top="porch terrace")
     r.merge("block", "siblings")
 
     front = "street stair wall"
@@ -121,13 +146,16 @@ def record(r: Recorder) -> None:
     r.attach("balcony", 2.1)
 
     r.place("attic", "terrace", attic, 4, max_per={"terrace": 1})
-    r.extrude("attic", 2.6, side="attic wall", top="attic roof")
+    r.extrude("attic", 2.6, side="attic wall", top="attic terrace")
     r.merge("attic")
-    r.place("plant", "attic roof", plant, 4, max_per={"attic roof": 1})
+    r.place("plant", "attic terrace", plant, 4, max_per={"attic terrace": 1})
     r.attach("plant", 1.1)
     r.place("parking", PLOT, parking, 4, max_per={PLOT: 1})
     r.extrude("parking", 0.06)
-    r.place("hedge", PLOT, hedge, 4, max_per={PLOT: 2})
-    r.extrude("hedge", 0.9, (0.8, 1.3))
+    r.place("drive", PLOT, drive, 4, max_per={PLOT: 1})
+    r.extrude("drive", 0.05)
     r.place("walk", PLOT, walk, 4, max_per={PLOT: 1})
     r.extrude("walk", 0.05)
+    r.place("hedge", PLOT, left_hedge, 4, max_per={PLOT: 1})
+    r.place("hedge", PLOT, right_hedge, 4, max_per={PLOT: 1})
+    r.extrude("hedge", 0.9, (0.8, 1.3))

@@ -25,6 +25,11 @@ def garage(s: Sheet) -> Sequence[Box]:
     return [(x0 + 0.8, h[1] + 1.0, h[0] + 0.2, h[1] + 7.0) for h in s.boxes("house")]
 
 
+def drive(s: Sheet) -> Sequence[Box]:
+    _, y0, _, _ = s.edges
+    return [(g[0] + 0.3, y0, g[2] - 0.3, g[1]) for g in s.boxes("garage")]
+
+
 def bay(s: Sheet) -> Sequence[Box]:
     return [(x1 - 4.0, y0 - 1.0, x1 - 1.2, y0 + 1.0) for x0, y0, x1, _ in s.boxes("house")]
 
@@ -84,13 +89,16 @@ def record(r: Recorder) -> None:
     with_garage, with_bay = r.select(PLOT, (1.0, 1.0))
     r.at = (with_garage,)
     r.place("garage", PLOT, garage, 4, max_per={PLOT: 1})
-    r.extrude("garage", 2.7, side="garage wall", top="flat roof")
+    r.extrude("garage", 2.7, side="garage wall", top="garage terrace")
+    r.place("drive", PLOT, drive, 4, max_per={PLOT: 1})
     garages = r.at
     r.at = (with_bay,)
     r.place("bay", PLOT, bay, 4, max_per={PLOT: 1})
-    r.extrude("bay", 2.9, side="bay wall", top="flat roof")
+    r.extrude("bay", 2.9, side="bay wall", top="bay terrace")
     r.at = (*garages, *r.at)
     r.merge("house", "siblings")
+    # Only now, or the house would be merged with it.
+    r.extrude("drive", 0.05)
 
     r.place("door", STREET, door, 4, max_per={STREET: 1})
     r.recess("door", 0.3, "front door")

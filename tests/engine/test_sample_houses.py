@@ -80,6 +80,53 @@ def test_doors_stand_on_the_ground_on_the_street_side(built):
         assert e.frame.normal[:2] @ street == pytest.approx(1, abs=0.01)
 
 
+@pytest.mark.parametrize(
+    ("label", "goal", "masses"),
+    [("condominium", "parking", {"block", "wing", "stairs"}), ("two-storey", "garage", {"house", "garage"})],
+)
+def test_a_drive_leads_from_the_street_to_where_cars_stand(label, goal, masses):
+    every = read_scene(HOUSES / "plots.geojson")
+    scene = Scene([p for p in every.polygons if p.label == label][2:7])
+    applied = OperationsTree.load(HOUSES / f"{label}.json").apply(scene, seed=7)
+    there = defaultdict(list)
+    for e in applied:
+        if e.surface == "ground":
+            there[e.parent, e.label].append(shapely.Polygon(e.frame.to_space(e.ring)[:, :2]))
+    reached = 0
+    for plot in scene.polygons:
+        goals, drives = there[plot.id, goal], there[plot.id, "drive"]
+        assert len(goals) == len(drives)
+        for to, drive in zip(goals, drives, strict=True):
+            reached += 1
+            assert drive.distance(shapely.LineString(plot.points[:2])) < 0.05
+            assert drive.distance(to) < 0.2 and plot.shape.buffer(0.05).contains(drive)
+            assert all(
+                drive.intersection(mass).area < 0.05
+                for (owner, name), shapes in there.items()
+                for mass in shapes
+                if owner == plot.id and name in masses | {"hedge", "walk", "path"}
+            )
+    assert reached >= 2
+
+
+def test_all_storeys_of_a_condominium_have_windows_to_the_street_and_loggias_to_the_garden():
+    every = read_scene(HOUSES / "plots.geojson")
+    scene = Scene([p for p in every.polygons if p.label == "condominium"][::3])
+    applied = OperationsTree.load(HOUSES / "condominium.json").apply(scene, seed=7)
+    heights = set()
+    for plot in scene.polygons:
+        rows = {"window": set(), "loggia": set()}
+        for e in applied:
+            if e.label in rows and plot.id in e.id:
+                rows[e.label].add(round(float(e.frame.to_space(e.ring)[:, 2].min()), 2))
+        front = sorted(rows["window"])
+        heights.add(len(front))
+        assert 3 <= len(front) <= 5 and np.diff(front) == pytest.approx(3.15, abs=0.1)
+        # Loggias begin a little lower, as one steps out to them.
+        assert all(min(abs(low - z) for z in rows["loggia"]) == pytest.approx(0.35, abs=0.1) for low in front)
+    assert len(heights) >= 2
+
+
 def test_windows_are_clear_of_corners_and_of_each_other(built):
     _, _, applied = built
     count = 0

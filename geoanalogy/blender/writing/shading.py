@@ -48,6 +48,7 @@ FINISHES: dict[str, tuple[Colour, float]] = {
     "path": ((0.48, 0.44, 0.39), 0.9),
     "walk": ((0.48, 0.44, 0.39), 0.9),
     "parking": ((0.16, 0.16, 0.17), 0.9),
+    "drive": ((0.16, 0.16, 0.17), 0.9),
 }
 
 #: Attribute of faces, from 0 to 1, by which the buildings of a street differ: the same on all of one parcel.
