@@ -62,12 +62,35 @@ class Drawing:
             self.closed.append(bool(is_closed))
 
     def into_frame(self, points: ArrayLike) -> Complex:
-        """Scene points (n, 2) as complex numbers in the drawing's frame, (n,)."""
+        """Scene points as complex numbers in the drawing's frame.
+
+        Parameters
+        ----------
+        points : array_like of shape (n, 2)
+
+        Returns
+        -------
+        ndarray of shape (n,), complex
+
+        Raises
+        ------
+        InputError
+            For anything but pairs of finite numbers.
+        """
         p = points_of(points, "the points").reshape(-1, 2)
         return (p[:, 0] + 1j * p[:, 1] - self.centre) / self.size
 
     def out_of_frame(self, z: Complex) -> np.ndarray:
-        """Complex numbers in the drawing's frame as scene points (n, 2)."""
+        """Complex numbers in the drawing's frame as scene points: the inverse of `into_frame`.
+
+        Parameters
+        ----------
+        z : ndarray of shape (n,), complex
+
+        Returns
+        -------
+        ndarray of shape (n, 2)
+        """
         w = np.asarray(z) * self.size + self.centre
         return np.stack([w.real, w.imag], 1)
 

@@ -72,7 +72,13 @@ class PlacementOptions:
             object.__setattr__(self, name, bool(value))
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data, as it is written to JSON (an infinite tolerance is None there)."""
+        """Plain data, as it is written to JSON.
+
+        Returns
+        -------
+        dict
+            An infinite tolerance is None there.
+        """
         return {k: None if isinstance(v, float) and np.isinf(v) else v for k, v in asdict(self).items()}
 
     @classmethod
