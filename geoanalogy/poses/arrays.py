@@ -8,6 +8,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import is_flag, real, shown
 from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
@@ -60,10 +61,14 @@ class ArrayOptions:
 
     def __post_init__(self) -> None:
         for name, allowed in (("corners", ("round", "mitre")), ("way", ("shorter", "left", "right"))):
-            if getattr(self, name) not in allowed:
-                raise InputError(
-                    f"the array option {name} is {getattr(self, name)!r}; choose from {', '.join(allowed)}"
-                )
+            value = getattr(self, name)
+            if not isinstance(value, str) or value not in allowed:
+                raise InputError(f"the array option {name} is {shown(value)}; choose from {', '.join(allowed)}")
+        if not 0 <= real(self.threshold) <= 1:
+            raise InputError(f"the array option threshold is {shown(self.threshold)}; give a number from 0 to 1")
+        for name in ("even", "validate"):
+            if not is_flag(value := getattr(self, name)):
+                raise InputError(f"the array option {name} is {shown(value)}; give True or False")
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import is_whole, real, shown
 from ..errors import InputError
 from ..geometry.scene import Scene
 from ..progress import Progress, Stepper, run
@@ -60,14 +61,16 @@ class ScatterOptions:
     def __post_init__(self) -> None:
         if (self.count is None) == (self.density is None):
             raise InputError("a scatter needs either a count per parent or a density; give one of the two")
-        if self.directions not in ("best", "random"):
-            raise InputError(f"the scatter option directions is {self.directions!r}; choose from best, random")
-        for name, least in (("count", 0), ("density", 0), ("spacing", 0), ("sharpness", 0)):
+        if not isinstance(self.directions, str) or self.directions not in ("best", "random"):
+            raise InputError(f"the scatter option directions is {shown(self.directions)}; choose from best, random")
+        for name in ("count", "density", "spacing", "sharpness"):
             value = getattr(self, name)
-            if value is not None and not (math.isfinite(value) and value >= least):
-                raise InputError(f"the scatter option {name} is {value}; give a number that is not negative")
-        if not (math.isfinite(self.width) and self.width > 0):
-            raise InputError(f"the scatter option width is {self.width}; give a positive number")
+            if not 0 <= real(value) < math.inf and (value is not None or name == "sharpness"):
+                raise InputError(f"the scatter option {name} is {shown(value)}; give a number that is not negative")
+        if self.count is not None and not is_whole(self.count):
+            raise InputError(f"the scatter option count is {shown(self.count)}; give a whole number")
+        if not 0 < real(self.width) < math.inf:
+            raise InputError(f"the scatter option width is {shown(self.width)}; give a positive number")
 
     def number_in(self, area: float) -> int:
         """How many objects a parent gets.
@@ -81,7 +84,7 @@ class ScatterOptions:
         -------
         int
         """
-        return self.count if self.count is not None else round((self.density or 0.0) * area)
+        return int(self.count) if self.count is not None else round((self.density or 0.0) * area)
 
 
 @dataclass(frozen=True)

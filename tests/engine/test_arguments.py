@@ -8,6 +8,8 @@ from shapes import rectangle
 
 import geoanalogy as ga
 from geoanalogy.arguments import is_whole, real, shown
+from geoanalogy.poses.arrays import ArrayOptions
+from geoanalogy.poses.scatter import ScatterOptions
 
 NAN, INF = float("nan"), float("inf")
 SCENE = ga.Scene(
@@ -126,7 +128,7 @@ CALLS = {
 
 #: Options by what their values are.
 WRONG = {bool: NOT_FLAGS, int: NOT_COUNTS, float: (*NOT_NUMBERS, -1.0), str: (None, 5, "x", [], {}, np.zeros(2))}
-for KIND in (ga.PoseOptions, ga.PlacementOptions, ga.RegionOptions):
+for KIND in (ga.PoseOptions, ga.PlacementOptions, ga.RegionOptions, ArrayOptions):
     CALLS |= {
         f"{KIND.__name__} {f.name}": (lambda v, kind=KIND, name=f.name: kind(**{name: v}), WRONG[type(f.default)])
         for f in fields(KIND)
@@ -144,6 +146,19 @@ CALLS |= {
         "alternative_geometry": (*NOT_MAPPINGS, {"door": "x"}, {"door": [(0, 0), (1, 1)]}, {"door": [(NAN, 0)] * 3}),
     }.items()
 }
+
+
+CALLS |= {
+    f"ScatterOptions {name}": (lambda v, name=name: ScatterOptions(**{"count": 3, name: v}), values)
+    for name, values in {
+        "count": (*NOT_COUNTS, -1),
+        "spacing": (*NOT_NUMBERS[1:], -1, INF),
+        "width": (*NOT_NUMBERS, 0, -1, INF),
+        "sharpness": (*NOT_NUMBERS, -1, INF),
+        "directions": WRONG[str],
+    }.items()
+}
+CALLS["ScatterOptions density"] = (lambda v: ScatterOptions(density=v), (*NOT_NUMBERS, -0.1, INF))
 
 
 @pytest.mark.parametrize("call", CALLS)
