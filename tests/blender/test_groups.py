@@ -60,7 +60,7 @@ def test_transfer_takes_results_on():
     face("source", ROOM, "bed")
     face("target", [(10, 0), (18, 0), (18, 6), (10, 6)], "bed")
     lamp = activate(box("Lamp", (0.2, 0.2, 1.0), "lamp", at=(0.5, 0.5, 0)))
-    assert bpy.ops.geoanalogy.scatter(EXEC, True, count=3, level_set_width=0.5) == {"FINISHED"}
+    assert bpy.ops.geoanalogy.scatter(EXEC, True, count=3) == {"FINISHED"}
     inside = [i for i in results() if i.location.x < 5]
     activate(*inside)
     assert bpy.ops.geoanalogy.transfer(EXEC, True) == {"FINISHED"}
@@ -73,7 +73,7 @@ def test_results_with_data_of_their_own_are_taken_on_too():
     face("source", ROOM, "bed")
     face("target", LARGE, "bed")
     lamp = activate(box("Lamp", (0.2, 0.2, 1.0), "lamp", at=(0.5, 0.5, 0)))
-    assert bpy.ops.geoanalogy.scatter(EXEC, True, count=1, level_set_width=0.5) == {"FINISHED"}
+    assert bpy.ops.geoanalogy.scatter(EXEC, True, count=1) == {"FINISHED"}
     (inside,) = [i for i in results() if i.location.x < 5]
     inside.data = inside.data.copy()
     activate(inside)
