@@ -34,6 +34,9 @@ MOST_LOTS = 6
 #: How far from the streets the real quarter ends, metres.
 NEAR = 62.0
 
+#: How far before a lot the ground up to the street is paved at most, metres.
+FORECOURT = 10.0
+
 #: Distance within which a plot that looks at a street is on it, metres.
 ON_STREET = 13.0
 
@@ -82,14 +85,20 @@ class Map:
 
 
 def add_streets(
-    drawn: Map, lines: Sequence[shapely.LineString], beside: BaseGeometry, rng: np.random.Generator
+    drawn: Map,
+    lines: Sequence[shapely.LineString],
+    beside: BaseGeometry,
+    rng: np.random.Generator,
+    courts: BaseGeometry | None = None,
 ) -> None:
-    """Add carriageways, pavements up to what lies beside, and trees along them."""
+    """Add carriageways, pavements up to what lies beside, widened by forecourts, and trees along them."""
     middle = shapely.union_all(lines)
     carriageway = middle.buffer(CARRIAGEWAY, quad_segs=4)
     drawn.add(carriageway, label="street")
     # Corners of pavements are rounded inwards, too.
     walks = middle.buffer(PAVEMENT, quad_segs=4).difference(carriageway).difference(beside)
+    if courts is not None:
+        walks = walks.union(courts)
     drawn.add(walks, label="pavement")
     ends = shapely.MultiPoint([p for line in lines for p in (line.coords[0], line.coords[-1])])
     crossings = [a.intersection(b) for i, a in enumerate(lines) for b in lines[:i]]
@@ -130,23 +139,45 @@ def real(seed: int = 1) -> Map:
     paved = streets.buffer(CARRIAGEWAY + 1.6)  # where the middle of a street touches plots
     near = streets.buffer(NEAR, quad_segs=3)
     drawn = Map(ATTRIBUTION)
-    add_streets(drawn, lines, shapely.union_all(plots), rng)
-    lots = []
+    ground: list[shapely.Polygon] = []
+    lots: list[Lot] = []
     for k, plot in enumerate(plots):
         plot = max(shapely.get_parts(plot.intersection(near)), key=lambda part: part.area)
         if plot.area < 40.0:
             continue
+        ground.append(plot)
+        if plot.area < PARK:
+            # Some plots of the source lie on each other.
+            taken = shapely.union_all([lot.shape for lot in lots])
+            lots += lots_of(plot.difference(taken.buffer(0.05)).difference(paved), streets, str(k))
+    courts = forecourts(lots, streets.buffer(CARRIAGEWAY, quad_segs=4))
+    add_streets(drawn, lines, shapely.union_all(plots).difference(courts), rng, courts)
+    built = shapely.union_all([lot.shape for lot in lots]).buffer(2.5).union(courts.buffer(2.5))
+    planted = shapely.Polygon()
+    for k, plot in enumerate(ground):
         park = plot.area >= PARK
-        drawn.add(plot, label="park" if park else "garden", id=f"plot {k + 1}")
-        # Some plots of the source lie on each other.
-        taken = shapely.union_all([lot.shape for lot in lots])
-        here = [] if park else list(lots_of(plot.difference(taken.buffer(0.05)).difference(paved), streets, str(k)))
-        lots += here
-        free = plot.buffer(-2.5).difference(shapely.union_all([lot.shape.buffer(2.5) for lot in here]))
+        drawn.add(plot.difference(courts), label="park" if park else "garden", id=f"plot {k + 1}")
         kind, radius, apart = ("broad-leaved tree", 2.9, 11.0) if park else ("small tree", 1.9, 7.5)
-        drawn.add_trees(scattered(free, apart, rng), kind, radius, rng)
+        drawn.add_trees(
+            scattered(plot.buffer(-2.5).difference(built).difference(planted), apart, rng), kind, radius, rng
+        )
+        planted = planted.union(plot)
     drawn.add_lots(lots)
     return drawn
+
+
+def forecourts(lots: Sequence[Lot], carriageway: BaseGeometry) -> BaseGeometry:
+    """The ground between the fronts of lots and a street that is near: walks and drives end at it."""
+    built = shapely.union_all([lot.shape for lot in lots])
+    found = []
+    for lot in lots:
+        a, b = lot.ring[:2]
+        out = np.array([b[1] - a[1], a[0] - b[0]]) * FORECOURT / lot.width
+        strip = shapely.Polygon([a, b, b + out, a + out])
+        before = shapely.get_parts(strip.difference(carriageway).difference(built))
+        front = shapely.LineString([a, b])
+        found += [p for p in before if p.distance(front) < 0.1 and p.distance(carriageway) < 0.1]
+    return shapely.union_all(found)
 
 
 def lots_of(plot: BaseGeometry, streets: BaseGeometry, name: str) -> Iterator[Lot]:

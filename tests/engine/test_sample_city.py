@@ -46,6 +46,17 @@ def test_every_lot_has_its_front_on_a_street(maps):
             assert np.cos(np.arctan2(along[1], along[0]) - p.orientation) == pytest.approx(1, abs=1e-4)
 
 
+def test_walks_end_at_a_pavement_and_no_tree_stands_on_a_lot(maps):
+    for name, (scene, _) in maps.items():
+        paved = shapely.union_all([p.shape for p in scene.polygons if p.label == "pavement"])
+        fronts = shapely.linestrings(np.array([p.points[:2] for p in lots(scene)]))
+        assert np.mean(shapely.distance(fronts, paved) < 0.1) > 0.97, name
+        reached = [front.buffer(0.6, cap_style="flat").intersection(paved).area for front in fronts]
+        assert np.mean(np.array(reached) > 0.3 * shapely.length(fronts)) > 0.97, name
+        trees = [p.shape.centroid for p in scene.polygons if p.label.endswith("tree")]
+        assert not len(shapely.STRtree(trees).query([p.shape for p in lots(scene)], predicate="contains")[0]), name
+
+
 def test_the_real_map_names_its_source():
     plain = json.loads((HERE / "bubenec.geojson").read_text(encoding="utf-8"))
     assert "momepy" in plain["attribution"] and "BSD-3-Clause" in plain["attribution"]
