@@ -43,6 +43,7 @@ FINISHES = {
     "balcony": "granite",
     "hedge": "box leaf",
     "parking": "granite",
+    "drive": "granite",
     "walk": "sandstone",
 }
 
