@@ -55,6 +55,23 @@ class Candidates:
         """
         return Candidates(self.position[chosen], self.angle[chosen], self.strength[chosen])
 
+    def joined(self, more: "Candidates") -> "Candidates":
+        """These places and others.
+
+        Parameters
+        ----------
+        more : Candidates
+
+        Returns
+        -------
+        Candidates
+        """
+        return Candidates(
+            np.concatenate([self.position, more.position]),
+            np.append(self.angle, more.angle),
+            np.append(self.strength, more.strength),
+        )
+
 
 def find_candidates(
     importance: Importance, fields: Fields, blocked: NDArray[np.bool_], taken: NDArray[np.bool_]

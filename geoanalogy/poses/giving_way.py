@@ -1,4 +1,4 @@
-"""The best poses that may be accepted, where no maximum of the importance may (section 4.8).
+"""The best poses that may be accepted, where the best maximum of the importance may not (section 4.8).
 
 In a room that is smaller or fuller than the example's, what the relations ask for is inside an obstacle or juts out of
 the room. The object then gives way: it stands at the best place beside.
@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..relations.runs import run_starts
 from .batch import Batch
@@ -21,19 +22,22 @@ FREE = 0.5
 TOUCHING = 0.02
 
 #: Candidates of each importance that are looked at; how far around one is looked for a free pose, in half-widths, and
-#: in how many directions: candidates are a little more than a half-width apart.
+#: in how many directions: candidates are a little more than a half-width apart, and what stands in the way is deeper.
 STRONGEST = 8
-AROUND = (0.0, 0.6, 1.2)
+AROUND = (0.0, 0.6, 1.2, 2.4)
 WAYS = 8
 
 #: Steps uphill at first, in half-widths, and how many there are: steps are halved where nothing gains, so that poses
 #: come to rest well within a thousandth of a room's size.
-FARTHEST = 1.0
-STEPS = 14
+FARTHEST = 0.6
+STEPS = 10
 
 
 def give_way(
-    importances: Sequence[Importance], candidates: Sequence[Candidates], factor: Sequence[float], stands: Stands
+    importances: Sequence[Importance],
+    candidates: Sequence[Candidates],
+    factor: Sequence[float] | NDArray[np.float64],
+    stands: Stands,
 ) -> Refined:
     """Move the best free poses uphill as far as nothing is in their way.
 
@@ -43,7 +47,7 @@ def give_way(
         Of one query.
     candidates : sequence of Candidates
         Of each importance.
-    factor : sequence of float
+    factor : sequence of float or ndarray
         What the importances are multiplied by before those of an arrangement are compared.
     stands : callable
         Which poses may stand.

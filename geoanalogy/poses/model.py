@@ -1,13 +1,10 @@
 """An example taken from its scene, and the steps of section 4.2 (figure 4.4) that find its analogues put together."""
 
-import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
-from functools import cached_property, partial
+from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 
 from ..arguments import given
@@ -16,40 +13,25 @@ from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..progress import Progress, Stepper, run
 from ..relations.elements import keep_features
+from .answering import Answering
 from .arrangement import Arrangement, arrangement_of
 from .candidates import Candidates, find_candidates
 from .directions import directions_read
-from .explanation import explain
 from .fields import Fields
 from .footprint_candidates import SLACK, STRONG, find_footprint_candidates
-from .giving_way import FREE, give_way
+from .giving_way import FREE
 from .importance import Importance
-from .kernels import wrap
-from .matching import Matching, Sense, senses
+from .matching import Matching, senses
 from .options import PoseOptions
 from .pose import Pose, footprint_ring
 from .query import Query
-from .refinement import refine
-from .results import PoseResults, PropagatedPose, RelationShare
-from .rivals import Refined
+from .results import PoseResults, PropagatedPose
 from .validation import JUTTING_SHARE, Validation
 
 Array = NDArray[np.float64]
-Indices = NDArray[np.intp]
-
-#: Importance, position, angle, and the importance that they are of.
-Found = tuple[float, Array, float, Importance]
-
-#: Differences in importance below this are none: about what the refinement leaves.
-EQUAL = 1e-4
-
 #: Rooms within this share of the example's size are of its size: in proportion to the room (option `scale`) is then
 #: the same as fixed.
 SAME_SIZE = 0.01
-
-#: Factor on the importance of answers in proportion to the room: of two equal answers the object at its own size is
-#: preferred.
-SCALED_FACTOR = 0.95
 
 #: Parents whose candidates are refined together: enough that little is spent on each, and so few that a plan of
 #: thousands of rooms is not held at once.
@@ -90,6 +72,7 @@ class PoseModel:
         self._arrangement = arrangement_of(source, parent)
         self.query = Query(self._arrangement, pose, footprint, options)
         self._validation = Validation(self._arrangement, pose, footprint, options)
+        self._answering = Answering(self._arrangement, self.query, self._validation, footprint)
 
     def place(self, scene: Scene, progress: Progress | None = None) -> PoseResults:
         """Find all places of a scene that answer the example.
@@ -135,10 +118,10 @@ class PoseModel:
             yield i / len(targets), f"placing in {polygon.label or polygon.id}"
             tried += self._candidates_in(arrangement_of(scene, polygon), spacing)
             if (i + 1) % TOGETHER == 0 or i + 1 == len(targets):
-                found += self._answers(tried, spacing)
+                found += self._answering.answers(tried, partial(self._free_in, spacing))
                 tried.clear()
                 scene.memory.settle()
-        return PoseResults(self._ranked(found), self.footprint)
+        return PoseResults(self._answering.ranked(found), self.footprint)
 
     def targets(self, scene: Scene) -> list[Polygon]:
         """The polygons of a scene that can hold answers.
@@ -206,6 +189,10 @@ class PoseModel:
             if len(candidates.angle):
                 yield importance, candidates
 
+    def _free_in(self, spacing: float, importance: Importance) -> Candidates:
+        """Where the object is hardly in anything that it may not be in."""
+        return self._candidates_of(importance, spacing, FREE * importance.width)
+
     def _candidates_of(self, importance: Importance, spacing: float, slack: float) -> Candidates:
         """Where to look, up to `slack` deep inside what the object may not be in."""
         target = importance.target
@@ -220,7 +207,7 @@ class PoseModel:
             fields.evaluate(relations, polygons=importance.answering)
         blocked = self._validation.blocked(target, fields, slack)
         # The example would outshine the other places of its room.
-        taken = self._is_example(target, fields.grid.points, importance.mirrored)
+        taken = self._answering.is_example(target, fields.grid.points)
         find = find_footprint_candidates if self.query.rigid else find_candidates
         return find(importance, fields, blocked, taken)
 
@@ -230,138 +217,6 @@ class PoseModel:
         least = float(np.sqrt(np.prod(box) / (MOST_CELLS * self.options.cells)))
         coarser = max(0.0, float(np.ceil(np.log2(least / spacing))))
         return target.fields(spacing * 2**coarser, margin + spacing * 2**coarser)
-
-    def _answers(self, tried: Sequence[tuple[Importance, Candidates]], spacing: float) -> list[PropagatedPose]:
-        """What the candidates of some arrangements lead to."""
-        importances = [importance for importance, _ in tried]
-        factor = [self._factor(importance) for importance in importances]
-        refined = refine(importances, [candidates for _, candidates in tried], factor, self._stands)
-        found: dict[Arrangement, list[Found]] = {i.target: [] for i in importances}
-        self._accept(importances, refined, found)
-        # Where no maximum may be accepted the object gives way.
-        left = [i for i in importances if not found[i.target]]
-        if left and self.footprint is not None and self.options.validate:
-            free = [self._candidates_of(i, spacing, FREE * i.width) for i in left]
-            factor = [self._factor(i) for i in left]
-            self._accept(left, give_way(left, free, factor, self._stands), found)
-        results = []
-        for target, places in found.items():
-            apart = self._apart(self._ranked([self._result(target, *place) for place in places]))
-            most = min(self.options.candidates, self.options.max_per.get(target.parent.label, self.options.candidates))
-            results += self._ranked(self._passable(target, apart))[:most]
-        return results
-
-    def _accept(
-        self, importances: Sequence[Importance], refined: Refined, found: dict[Arrangement, list[Found]]
-    ) -> None:
-        """Add the poses that may be answers to what is found in their arrangements."""
-        for k, mine in refined.by_importance():
-            importance, poses = importances[k], refined.of(mine)
-            target, turned, factor = importance.target, importance.mirrored, self._factor(importance)
-            good = poses.value * factor >= self.options.threshold
-            good &= ~self._is_example(target, poses.position, turned)
-            good &= self.query.is_upright(poses.angle, turned)
-            poses = poses.of(good)
-            poses = poses.of(self._accepts(importance, poses.position, poses.angle))
-            rows = zip(poses.value * factor, poses.position, poses.angle, strict=True)
-            found[target].extend((float(v), p, float(a), importance) for v, p, a in rows)
-
-    def _factor(self, importance: Importance) -> float:
-        return 1.0 if importance.scale == 1.0 else SCALED_FACTOR
-
-    def _accepts(self, importance: Importance, position: Array, angle: Array) -> NDArray[np.bool_]:
-        """Which poses intersect nothing that the example does not."""
-        i = importance
-        return self._validation.accepts(i.target, position, angle, i.mirrored, i.scale)
-
-    def _stands(self, importances: Sequence[Importance], poses: Refined, slack: float) -> NDArray[np.bool_]:
-        """Whether poses that move no further than `slack`, in half-widths of level sets, may be accepted."""
-        number = {t: k for k, t in enumerate(dict.fromkeys(i.target for i in importances))}
-        target = np.array([number[i.target] for i in importances], dtype=np.intp)[poses.which]
-        mirrored = np.array([i.mirrored for i in importances], dtype=bool)[poses.which]
-        scale = np.array([i.scale for i in importances])[poses.which]
-        width = np.array([i.width for i in importances])[poses.which]
-        targets = list(number)
-        return ~self._validation.hopeless(targets, target, poses.position, poses.angle, mirrored, scale, slack * width)
-
-    def _ranked(self, found: Sequence[PropagatedPose]) -> list[PropagatedPose]:
-        """Best first; of equals, the object as it is before its mirror image, the least turned one first."""
-        importance = np.array([p.importance for p in found])
-        frame = np.array([p.parent.main_orientation for p in found]) - self.parent.main_orientation
-        turn = np.abs(wrap(np.array([p.pose.angle for p in found]) - self.pose.angle - frame)).round(3)
-        order = np.argsort(-importance, kind="stable")
-        # Equals are those that the best of them is hardly better than.
-        group = np.zeros(len(order), dtype=np.intp)
-        first = 0
-        for i in range(1, len(order)):
-            if importance[order[first]] - importance[order[i]] > EQUAL:
-                first = i
-            group[order[i]] = first
-        mirrored = np.array([p.mirrored != self.pose.mirrored for p in found])
-        return [found[i] for i in np.lexsort((turn, mirrored, group))]
-
-    def _is_example(self, target: Arrangement, position: Array, mirrored: bool) -> NDArray[np.bool_]:
-        """Whether poses are the example itself, or its mirror image in the same place."""
-        if not target.is_at(self._arrangement):
-            return np.zeros(len(position), dtype=bool)
-        return np.hypot(*(position - self.pose.position).T) < max(self.reach, self.query.width)
-
-    @cached_property
-    def reach(self) -> float:
-        """Least distance between two results, in scene units: nearer ones are the same place."""
-        if self.options.spacing is not None:
-            return self.options.spacing
-        if self.footprint is None:
-            return 2 * self.query.width
-        return float(np.ptp(self.footprint, axis=0).min()) / 2
-
-    def _result(
-        self, target: Arrangement, value: float, position: Array, angle: float, importance: Importance
-    ) -> PropagatedPose:
-        """A place found, as it is told."""
-        pose = Pose((position[0], position[1]), angle % (2 * np.pi), importance.mirrored)
-        # Results outlive the fields of their parents, so they hold none of them.
-        surroundings = partial(Arrangement, target.parent, target.members)
-        explain = partial(self._explain, surroundings, importance.sense, importance.scale, position, angle)
-        return PropagatedPose(pose, value, target.parent, importance.scale, explain)
-
-    def _apart(self, found: list[PropagatedPose]) -> list[PropagatedPose]:
-        """The best of one parent that keep their distance (non-maximum suppression)."""
-        in_space = self.options.accumulation == "pose space"
-        kept: list[PropagatedPose] = []
-        for p in found:
-            # In pose space two directions at one place are two answers (figure 4.17).
-            if not any(
-                math.dist(p.pose.position, k.pose.position) < self.reach * p.scale
-                and not (
-                    in_space
-                    and abs(math.remainder(p.pose.angle - k.pose.angle, math.tau)) > self.options.direction_width
-                )
-                for k in kept
-            ):
-                kept.append(p)
-        return kept
-
-    def _passable(self, target: Arrangement, found: list[PropagatedPose]) -> list[PropagatedPose]:
-        """The same, worth less as far as they are in the way where the example is not."""
-        if self.footprint is None or not self.options.validate or not len(target.fronts) or not found:
-            return found
-        outlines = shapely.polygons([p.pose.to_scene(self.footprint * p.scale) for p in found])
-        left = target.fronts.passable(outlines, self._in_front)
-        less = (replace(p, importance=p.importance * f) for p, f in zip(found, left.tolist(), strict=True))
-        return [p for p in less if p.importance >= self.options.threshold]
-
-    @cached_property
-    def _in_front(self) -> dict[str, float]:
-        """How much of fronts the example covers."""
-        if self.footprint is None:
-            return {}
-        return self._arrangement.fronts.covered_by(shapely.Polygon(self.pose.to_scene(self.footprint)))
-
-    def _explain(
-        self, surroundings: Callable[[], Arrangement], sense: Sense, scale: float, position: Array, angle: float
-    ) -> tuple[RelationShare, ...]:
-        return explain(Importance(self.query, surroundings(), sense, scale), position, angle)
 
     def to_dict(self) -> dict[str, Any]:
         """The model as plain data: the example's surroundings, pose, footprint and options.

@@ -129,14 +129,14 @@ class Query:
             self.questions = {t: q for t in ElementType if (q := self._question(t, seen)) is not None}
             self.total = float(sum(q.weight.sum() for q in self.questions.values()))
 
-    def is_upright(self, angle: Array, mirrored: bool) -> NDArray[np.bool_]:
+    def is_upright(self, angle: Array, mirrored: bool | NDArray[np.bool_]) -> NDArray[np.bool_]:
         """Whether the side that is up at the example is up, where the option `upright` asks for it.
 
         Parameters
         ----------
         angle : ndarray of shape (m,)
             Directions of poses, radians.
-        mirrored : bool
+        mirrored : bool or ndarray of shape (m,), bool
             Whether they are mirrored.
 
         Returns
@@ -146,7 +146,8 @@ class Query:
         if not self.options.upright:
             return np.ones(len(angle), dtype=bool)
         # A mirrored object is flipped across its direction before it is turned.
-        up = -np.cos(angle + self.pose.angle) if mirrored != self.pose.mirrored else np.cos(angle - self.pose.angle)
+        flipped = np.asarray(mirrored) != self.pose.mirrored
+        up = np.where(flipped, -np.cos(angle + self.pose.angle), np.cos(angle - self.pose.angle))
         return np.asarray(up > UPRIGHT)
 
     def _question(self, element: ElementType, seen: Observation) -> Question | None:

@@ -33,6 +33,9 @@ ACROSS_SENSES = 2
 SLACK_AT_FIRST = 1.25
 SLACK_AT_LAST = 0.5
 
+#: Candidates that cannot be accepted are looked beside from this share of the best importance on.
+WORTH_FREEING = 0.5
+
 #: Pairs of features that can contribute less than this share of the strongest one do not pull at poses.
 STRONG = 0.05
 
@@ -68,7 +71,7 @@ CLIMBS = 8
 def refine(
     importances: Sequence[Importance],
     candidates: Sequence[Candidates],
-    factor: Sequence[float] | None = None,
+    factor: Sequence[float] | Array | None = None,
     stands: Stands | None = None,
 ) -> Refined:
     """Move poses to the nearby maximum of the importance, in many arrangements at once.
@@ -83,7 +86,7 @@ def refine(
         Of one query.
     candidates : sequence of Candidates
         Of each importance.
-    factor : sequence of float, optional
+    factor : sequence of float or ndarray, optional
         What the importances are multiplied by before those of an arrangement are compared.
     stands : callable, optional
         Which poses may be accepted; None: all. The others are dropped where better ones are left.
@@ -140,7 +143,9 @@ def _descend(batch: Batch, poses: Refined, iterations: range, rivals: Rivals | N
         if iteration in KEPT and rivals is not None:
             kept = rivals.leading(best, *KEPT[iteration], across=iteration >= ACROSS_SENSES)
             if iteration == max(KEPT):
-                kept = kept[rivals.standing(best.of(kept), SLACK_AT_LAST)]
+                best, kept = _freed(near, own, best, kept, rivals)
+                moved = best.value < 0
+                position[moved], angle[moved], best_step[moved] = best.position[moved], best.angle[moved], 0.0
             if len(kept) < len(angle):
                 position, angle, best, best_step = position[kept], angle[kept], best.of(kept), best_step[kept]
                 own = own[kept]
@@ -152,22 +157,40 @@ def _descend(batch: Batch, poses: Refined, iterations: range, rivals: Rivals | N
     return best
 
 
+def _freed(batch: Batch, own: Indices, poses: Refined, chosen: Indices, rivals: Rivals) -> tuple[Refined, Indices]:
+    """The chosen poses that may be accepted, and better places beside the others that may.
+
+    Where the grid's points lie decides whether a place at a wall is begun from within the wall or from the room, and
+    what is settled on inside it says nothing about the place in the room.
+
+    Returns
+    -------
+    Refined
+        All poses; those that were moved have the importance -1.
+    ndarray of int
+        The numbers of those to go on with, in order.
+    """
+    stand = rivals.standing(poses.of(chosen), SLACK_AT_LAST)
+    fallen = np.delete(chosen, stand)
+    fallen = fallen[np.delete(rivals.shares(poses.of(chosen)), stand) >= WORTH_FREEING]
+    if not len(fallen):
+        return poses, chosen[stand]
+    before = poses.of(fallen)
+    beside = _beside(batch, own[fallen], before)
+    again = np.flatnonzero(beside.value > before.value)
+    again = again[rivals.acceptable(beside.of(again), SLACK_AT_LAST)]
+    moved = fallen[again]
+    position, angle, value = poses.position.copy(), poses.angle.copy(), poses.value.copy()
+    position[moved], angle[moved], value[moved] = beside.position[again], beside.angle[again], -1.0
+    return Refined(poses.which, position, angle, value), np.sort(np.append(chosen[stand], moved))
+
+
 def _probe(batch: Batch, poses: Refined, rivals: Rivals) -> Refined:
     """Look around the leading poses for better ones, and go on from those."""
     table = rivals.in_turn(poses, PROBED)
     lead = np.sort(table[table >= 0])
     leading = poses.of(lead)
-    c, s = np.cos(leading.angle), np.sin(leading.angle)
-    ways = np.stack([c, s, -c, -s, -s, c, s, -c], axis=1).reshape(-1, 4, 2) * batch.unit[leading.which, None, :1]
-    # All four ways at once: a call costs about as much as a thousand rows.
-    every = np.arange(len(lead))
-    rows = _near(batch, leading, (max(PROBES), 0.0)).rows(np.repeat(every, 4))
-    best = leading
-    for far in PROBES:
-        around = leading.position[:, None] + far * ways
-        offered = batch.total(rows, around.reshape(-1, 2), np.repeat(leading.angle, 4)).reshape(-1, 4)
-        way = np.argmax(offered, axis=1)
-        best = best.bettered(around[every, way], leading.angle, offered[every, way])
+    best = _beside(_near(batch, leading, (max(PROBES), 0.0)), np.arange(len(lead)), leading)
     gains = np.flatnonzero(best.value > leading.value)
     if not len(gains):
         return poses
@@ -178,6 +201,19 @@ def _probe(batch: Batch, poses: Refined, rivals: Rivals) -> Refined:
     moved = lead[gains[better]]
     position[moved], angle[moved], value[moved] = found.position[better], found.angle[better], found.value[better]
     return Refined(poses.which, position, angle, value)
+
+
+def _beside(batch: Batch, own: Indices, poses: Refined) -> Refined:
+    """Each pose, or the best place ahead, behind or at a side of it that is worth more."""
+    c, s = np.cos(poses.angle), np.sin(poses.angle)
+    ways = np.stack([c, s, -c, -s, -s, c, s, -c], axis=1).reshape(-1, 1, 4, 2) * batch.unit[own, None, None, :1]
+    around = poses.position[:, None] + (np.array(PROBES)[:, None, None] * ways).reshape(-1, 4 * len(PROBES), 2)
+    count = around.shape[1]
+    # All at once: a call costs about as much as a thousand rows.
+    offered = batch.total(batch.rows(np.repeat(own, count)), around.reshape(-1, 2), np.repeat(poses.angle, count))
+    best = np.argmax(offered.reshape(-1, count), axis=1)
+    every = np.arange(len(own))
+    return poses.bettered(around[every, best], poses.angle, offered.reshape(-1, count)[every, best])
 
 
 def _climb(batch: Batch, poses: Refined, rivals: Rivals) -> Refined:

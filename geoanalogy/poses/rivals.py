@@ -154,6 +154,20 @@ class Rivals:
         np.maximum.at(top, self._arrangement[poses.which], value)
         return top
 
+    def shares(self, poses: Refined) -> Array:
+        """What poses are worth, as shares of the best one of their arrangement.
+
+        Parameters
+        ----------
+        poses : Refined
+
+        Returns
+        -------
+        ndarray of shape (k,)
+        """
+        value = self.worth(poses)
+        return value / np.maximum(self._best(poses, value), np.finfo(float).tiny)[self._arrangement[poses.which]]
+
     def in_turn(self, poses: Refined, most: int | None = None) -> Indices:
         """Numbers of the poses of every arrangement that has any, the best first.
 
@@ -180,6 +194,23 @@ class Rivals:
             table = np.where(np.arange(table.shape[1]) < most * self._ways[room[start]][:, None], table, -1)
         return table
 
+    def acceptable(self, poses: Refined, slack: float) -> Bools:
+        """Which candidates may be accepted.
+
+        Parameters
+        ----------
+        poses : Refined
+        slack : float
+            How far they still move, in half-widths of level sets.
+
+        Returns
+        -------
+        ndarray of shape (k,), bool
+        """
+        if self._stands is None:
+            return np.ones(len(poses.which), dtype=bool)
+        return self._stands(self._importances, poses, slack)
+
     def standing(self, poses: Refined, slack: float) -> Indices:
         """The candidates that may be accepted, and those that nothing as good may be accepted in place of.
 
@@ -194,9 +225,7 @@ class Rivals:
         ndarray of int
             In order.
         """
-        if self._stands is None:
-            return np.arange(len(poses.which))
-        stands = self._stands(self._importances, poses, slack)
+        stands = self.acceptable(poses, slack)
         value = self.worth(poses)
         top = self._best(poses.of(stands), value[stands])
         return np.flatnonzero(stands | (value > top[self._arrangement[poses.which]]))
@@ -219,9 +248,7 @@ class Rivals:
         ndarray of int
             In the order of the poses.
         """
-        value = self.worth(poses)
-        top = self._best(poses, value)
-        good = np.flatnonzero(value >= share * top[self._arrangement[poses.which]])
+        good = np.flatnonzero(self.shares(poses) >= share)
         table = self.in_turn(poses.of(good))
         which = poses.which[good]
         unit = self._unit[which]

@@ -247,13 +247,10 @@ class ScatterModel:
         self, target: Arrangement, places: Array, angle: Array, field: ImportanceField, batch: NDArray[np.intp]
     ) -> NDArray[np.bool_]:
         """Which poses are upright and intersect nothing that the example does not (section 4.8)."""
-        accepted = np.zeros(len(batch), dtype=bool)
-        kinds = np.stack([field.mirrored[batch], field.scale[batch]], axis=1)
-        for mirrored, scale in np.unique(kinds, axis=0):
-            same = (kinds == (mirrored, scale)).all(axis=1)
-            accepted[same] = self._validation.accepts(target, places[same], angle[same], bool(mirrored), float(scale))
-            if self.options.directions == "best":
-                accepted[same] &= self.model.query.is_upright(angle[same], bool(mirrored))
+        mirrored, scale = field.mirrored[batch], field.scale[batch]
+        accepted = self._validation.accepts(target, places, angle, mirrored, scale)
+        if self.options.directions == "best":
+            accepted &= self.model.query.is_upright(angle, mirrored)
         return accepted
 
     def to_dict(self) -> dict[str, Any]:

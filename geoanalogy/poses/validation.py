@@ -48,7 +48,8 @@ class Validation:
         self._options = options
         #: The last slack and what it blocks: the same in all senses.
         self._blocked: WeakKeyDictionary[Fields, tuple[float, NDArray[np.bool_]]] = WeakKeyDictionary()
-        self._trees: WeakKeyDictionary[Arrangement, shapely.STRtree] = WeakKeyDictionary()
+        #: The obstacles of arrangements, by the margin taken off them.
+        self._trees: WeakKeyDictionary[Arrangement, dict[float, shapely.STRtree]] = WeakKeyDictionary()
 
     @cached_property
     def _at_example(self) -> tuple[float, frozenset[str]]:
@@ -120,7 +121,12 @@ class Validation:
         return blocked
 
     def accepts(
-        self, target: Arrangement, position: Array, angle: Array, mirrored: bool, scale: float
+        self,
+        target: Arrangement,
+        position: Array,
+        angle: Array,
+        mirrored: NDArray[np.bool_] | bool,
+        scale: Array | float,
     ) -> NDArray[np.bool_]:
         """Which poses intersect nothing that the example does not.
 
@@ -129,8 +135,8 @@ class Validation:
         target : Arrangement
         position : ndarray of shape (m, 2)
         angle : ndarray of shape (m,)
-        mirrored : bool
-        scale : float
+        mirrored : bool or ndarray of shape (m,), bool
+        scale : float or ndarray of shape (m,)
             Of the footprint.
 
         Returns
@@ -187,22 +193,28 @@ class Validation:
         low, high = self._footprint.min(axis=0), self._footprint.max(axis=0)
         middle, extent = (low + high) / 2, (high - low) / 2
         core = np.maximum(1 - (slack / scale)[:, None] / extent, LEAST_CORE)[:, None]
+        # Of an object that is thinner than that the rest is taken off what is around it.
+        rest = np.maximum(0.0, slack - (1 - LEAST_CORE) * scale * extent.min())
         outlines = self._outlines(middle + core * (self._footprint - middle), position, angle, mirrored, scale)
         first = run_starts(which).tolist()
         for start, end in zip(first, [*first[1:], len(which)], strict=True):
             target = targets[which[start]]
-            there = outlines[start:end]
+            there, off = outlines[start:end], float(rest[start:end].max())
             if not self.may_jut_out:
-                shapely.prepare(target.parent.shape)
-                hopeless[start:end] = ~shapely.covers(target.parent.shape, there)
-            hopeless[start + self._tree(target).query(there, predicate="intersects")[0]] = True
+                room = target.parent.shape.buffer(off, join_style="mitre") if off else target.parent.shape
+                shapely.prepare(room)
+                hopeless[start:end] = ~shapely.covers(room, there)
+            hopeless[start + self._tree(target, off).query(there, predicate="intersects")[0]] = True
         return hopeless
 
-    def _tree(self, target: Arrangement) -> shapely.STRtree:
-        """The obstacles of an arrangement."""
-        tree = self._trees.get(target)
+    def _tree(self, target: Arrangement, off: float = 0.0) -> shapely.STRtree:
+        """The obstacles of an arrangement, without a margin all around."""
+        trees = self._trees.setdefault(target, {})
+        tree = trees.get(off)
         if tree is None:
-            tree = self._trees[target] = shapely.STRtree([self._obstacle(m) for _, m in self.obstacles(target)])
+            shapes = np.array([self._obstacle(m) for _, m in self.obstacles(target)], dtype=object)
+            shapes = shapely.buffer(shapes, -off, join_style="mitre") if off else shapes
+            tree = trees[off] = shapely.STRtree(shapes)
         return tree
 
     @staticmethod

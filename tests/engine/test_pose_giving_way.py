@@ -1,4 +1,4 @@
-"""Where no maximum of the importance may be accepted, the object stands at the best place beside."""
+"""Where the best maximum of the importance may not be accepted, the object stands at the best place beside."""
 
 import numpy as np
 import pytest
@@ -25,12 +25,42 @@ def found(wide, high, pillar, **options):
 @pytest.mark.parametrize(("high", "pillar"), [(1.02, 0.15), (1.1, 0.15), (1.1, 0.25), (1.3, 0.25)])
 def test_the_object_gives_way_to_what_stands_in_its_place(high, pillar):
     (only,), pillars = found(2.0, high, pillar)
-    # As near to the end of the room as the pillar lets it.
-    assert only.pose.position[0] == pytest.approx(10 + pillar + 0.5, abs=0.005)
+    # As near to an end of the room as the pillar lets it.
+    assert abs(only.pose.position[0] - 11) == pytest.approx(0.5 - pillar, abs=0.005)
     assert only.importance < found(2.0, high, 0.0)[0][0].importance
     outline = shapely.Polygon(only.pose.to_scene(SQUARE))
     assert all(outline.intersection(p).area < 0.01 for p in pillars)
     assert outline.difference(shapely.box(10, 0, 12, high)).area < 0.01
+
+
+#: No two corners or sides are alike, so that the one analogous place is much the best.
+UNLIKE = np.array([(0.0, 0.0), (5.0, 0.0), (4.2, 3.0), (1.0, 3.6)])
+
+
+def beside_a_pillar(reach):
+    """The results in a room like the example's, where a pillar reaches into the object's place from the left."""
+    pillar = ga.Polygon([(10.7, 0), (11 + reach, 0), (11 + reach, 1), (10.7, 1)], label="pillar", parent="there")
+    rooms = [
+        ga.Polygon(UNLIKE, label="room", id="here"),
+        ga.Polygon(UNLIKE + np.array([10, 0]), label="room", id="there"),
+    ]
+    options = ga.PoseOptions(mirror=False, symmetries=False)
+    results = ga.propagate_pose(ga.Scene([*rooms, pillar]), ga.Pose((1.5, 0.5), np.pi / 2), SQUARE, options)
+    return [p for p in results if p.parent.id == "there"]
+
+
+@pytest.mark.parametrize("reach", [0.1, 0.15, 0.2])
+def test_the_object_gives_way_where_the_place_beside_is_better_than_all_that_are_free(reach):
+    first, second = beside_a_pillar(reach)[:2]
+    assert first.pose.position == pytest.approx((11.5 + reach, 0.5), abs=0.005)
+    assert first.pose.angle == pytest.approx(np.pi / 2, abs=0.01)
+    # What is free without giving way comes after it.
+    assert np.hypot(second.pose.position[0] - 11.5, second.pose.position[1] - 0.5) > 1
+    assert second.importance < first.importance < 1
+
+
+def test_the_object_does_not_give_way_to_where_other_places_are_better():
+    assert all(np.hypot(p.pose.position[0] - 11.5, p.pose.position[1] - 0.5) > 1 for p in beside_a_pillar(0.5))
 
 
 def test_nothing_is_placed_where_there_is_no_room():

@@ -12,8 +12,9 @@ from strategies import Similarity
 
 import geoanalogy as ga
 from geoanalogy import Polygon, Pose, PoseOptions, Scene, learn_pose, propagate_pose
+from geoanalogy.poses.answering import SCALED_FACTOR
 from geoanalogy.poses.arrangement import arrangement_of
-from geoanalogy.poses.model import SCALED_FACTOR, PoseModel
+from geoanalogy.poses.model import PoseModel
 from geoanalogy.poses.scatter import ScatterModel, ScatterOptions
 from geoanalogy.poses.validation import Validation
 
@@ -267,6 +268,19 @@ def test_a_pose_is_hopeless_that_hits_something_deeper_than_it_may_move(away, ex
     assert validation.hopeless([target], *poses).tolist() == [expected, expected]
     free = Validation(target, model.pose, BED, dataclasses.replace(model.options, validate=False))
     assert not free.hopeless([target], *poses).any()
+
+
+@pytest.mark.parametrize(("away", "expected"), [(0.0, False), (0.3, False), (0.5, True)])
+def test_a_thin_object_may_move_by_more_than_its_depth(away, expected):
+    """A shelf 0.2 deep that is `away` deep in a wardrobe, or in a wall, and may move by 0.4."""
+    shelf = rectangle(1, 0.2, (-0.5, -0.1))
+    scene = Scene([Polygon(rectangle(8, 6), "room", "r"), Polygon(rectangle(2, 2, (5, 0)), "wardrobe", parent="r")])
+    model = learn_pose(scene, Pose((1.5, 3)), shelf, PoseOptions())
+    target = arrangement_of(scene, scene.polygon("r"))
+    validation = Validation(target, model.pose, shelf, model.options)
+    places = np.array([(6.0, 2.1 - away), (3.0, 0.1 - away)])
+    poses = (np.zeros(2, dtype=np.intp), places, np.zeros(2), np.zeros(2, dtype=bool), np.ones(2), np.full(2, 0.4))
+    assert validation.hopeless([target], *poses).tolist() == [expected, expected]
 
 
 def test_poses_in_several_rooms_are_hopeless_or_not_each_in_its_own():
