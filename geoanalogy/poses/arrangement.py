@@ -11,7 +11,7 @@ from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
 from ..relations.elements import Elements, ElementType
 from .fields import Fields
-from .fronts import Fronts
+from .fronts import Fronts, may_be_opening
 from .sheets import Grid, Sheets
 
 
@@ -62,7 +62,10 @@ class Arrangement:
     @cached_property
     def fronts(self) -> Fronts:
         """What has to stay free before its openings."""
-        return Fronts.of(self.parent, self.members)
+        openings = [m for m in self.members if may_be_opening(self.parent, m)]
+        # The furniture changes, the openings do not.
+        key = ("fronts", self.parent.content, *(m.content for m in openings))
+        return self._memory.recall(key, lambda: Fronts.of(self.parent, openings))  # type: ignore[no-any-return]
 
     def is_at(self, other: "Arrangement") -> bool:
         """Whether the other arrangement's parent is this one's, in the same place.

@@ -4,6 +4,7 @@ Plans draw doors and windows as thin strips along the walls. Their labels are an
 shape. Unlike what stands in a room, a front may be stood in at a price: some rooms are too small for a rule.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -41,6 +42,11 @@ class Fronts:
     labels: tuple[str, ...]
     shapes: NDArray[np.object_]
     areas: Array
+
+    @property
+    def nbytes(self) -> int:
+        """Memory held, in bytes, about."""
+        return 500 * len(self.labels)
 
     @classmethod
     def of(cls, parent: Polygon, members: Sequence[Polygon]) -> "Fronts":
@@ -103,10 +109,24 @@ class Fronts:
         return shapely.area(shapely.intersection(outlines[:, None], self.shapes)) / self.areas  # type: ignore[no-any-return]
 
 
+def may_be_opening(parent: Polygon, member: Polygon) -> bool:
+    """Whether a member is not deep in every direction: most are, and are told at once.
+
+    Parameters
+    ----------
+    parent, member : Polygon
+
+    Returns
+    -------
+    bool
+    """
+    left, low, right, high = member.bounds.tolist()
+    return member.area <= THIN * parent.size * math.hypot(right - left, high - low)
+
+
 def _front(parent: Polygon, member: Polygon) -> Array | None:
     """The square before an opening and the opening itself as a ring, shape (4, 2); None for what is no opening."""
-    # Most members are no openings: what is deep in every direction is told at once.
-    if member.area > THIN * parent.size * np.hypot(*(member.bounds[2:] - member.bounds[:2])):
+    if not may_be_opening(parent, member):
         return None
     edges = np.roll(member.points, -1, axis=0) - member.points
     length = np.hypot(*edges.T)

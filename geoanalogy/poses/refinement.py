@@ -176,7 +176,7 @@ def _freed(batch: Batch, own: Indices, poses: Refined, chosen: Indices, rivals: 
     if not len(fallen):
         return poses, chosen[stand]
     before = poses.of(fallen)
-    beside = _beside(batch, own[fallen], before)
+    beside = _beside(batch, own[fallen], before, [far for far in PROBES if far > SLACK_AT_LAST])
     again = np.flatnonzero(beside.value > before.value)
     again = again[rivals.acceptable(beside.of(again), SLACK_AT_LAST)]
     moved = fallen[again]
@@ -190,7 +190,7 @@ def _probe(batch: Batch, poses: Refined, rivals: Rivals) -> Refined:
     table = rivals.in_turn(poses, PROBED)
     lead = np.sort(table[table >= 0])
     leading = poses.of(lead)
-    best = _beside(_near(batch, leading, (max(PROBES), 0.0)), np.arange(len(lead)), leading)
+    best = _beside(_near(batch, leading, (max(PROBES), 0.0)), np.arange(len(lead)), leading, PROBES)
     gains = np.flatnonzero(best.value > leading.value)
     if not len(gains):
         return poses
@@ -203,17 +203,20 @@ def _probe(batch: Batch, poses: Refined, rivals: Rivals) -> Refined:
     return Refined(poses.which, position, angle, value)
 
 
-def _beside(batch: Batch, own: Indices, poses: Refined) -> Refined:
-    """Each pose, or the best place ahead, behind or at a side of it that is worth more."""
+def _beside(batch: Batch, own: Indices, poses: Refined, far: Sequence[float]) -> Refined:
+    """Each pose, or the best place ahead, behind or at a side of it that is worth more, so many half-widths away."""
     c, s = np.cos(poses.angle), np.sin(poses.angle)
-    ways = np.stack([c, s, -c, -s, -s, c, s, -c], axis=1).reshape(-1, 1, 4, 2) * batch.unit[own, None, None, :1]
-    around = poses.position[:, None] + (np.array(PROBES)[:, None, None] * ways).reshape(-1, 4 * len(PROBES), 2)
-    count = around.shape[1]
-    # All at once: a call costs about as much as a thousand rows.
-    offered = batch.total(batch.rows(np.repeat(own, count)), around.reshape(-1, 2), np.repeat(poses.angle, count))
-    best = np.argmax(offered.reshape(-1, count), axis=1)
+    ways = np.stack([c, s, -c, -s, -s, c, s, -c], axis=1).reshape(-1, 4, 2) * batch.unit[own, None, :1]
+    # All four ways at once: a call costs about as much as a thousand rows.
+    rows = batch.rows(np.repeat(own, 4))
     every = np.arange(len(own))
-    return poses.bettered(around[every, best], poses.angle, offered.reshape(-1, count)[every, best])
+    best = poses
+    for step in far:
+        around = poses.position[:, None] + step * ways
+        offered = batch.total(rows, around.reshape(-1, 2), np.repeat(poses.angle, 4)).reshape(-1, 4)
+        way = np.argmax(offered, axis=1)
+        best = best.bettered(around[every, way], poses.angle, offered[every, way])
+    return best
 
 
 def _climb(batch: Batch, poses: Refined, rivals: Rivals) -> Refined:
