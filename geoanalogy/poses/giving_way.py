@@ -30,7 +30,7 @@ WAYS = 8
 #: Steps uphill at first, in half-widths, and how many there are: steps are halved where nothing gains, so that poses
 #: come to rest well within a thousandth of a room's size.
 FARTHEST = 0.6
-STEPS = 10
+STEPS = 14
 
 
 def give_way(

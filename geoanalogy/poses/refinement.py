@@ -34,7 +34,7 @@ SLACK_AT_FIRST = 1.25
 SLACK_AT_LAST = 0.5
 
 #: Candidates that cannot be accepted are looked beside from this share of the best importance on.
-WORTH_FREEING = 0.5
+WORTH_FREEING = 0.6
 
 #: Pairs of features that can contribute less than this share of the strongest one do not pull at poses.
 STRONG = 0.05

@@ -48,8 +48,7 @@ class Validation:
         self._options = options
         #: The last slack and what it blocks: the same in all senses.
         self._blocked: WeakKeyDictionary[Fields, tuple[float, NDArray[np.bool_]]] = WeakKeyDictionary()
-        #: The obstacles of arrangements, by the margin taken off them.
-        self._trees: WeakKeyDictionary[Arrangement, dict[float, shapely.STRtree]] = WeakKeyDictionary()
+        self._trees: WeakKeyDictionary[Arrangement, shapely.STRtree] = WeakKeyDictionary()
 
     @cached_property
     def _at_example(self) -> tuple[float, frozenset[str]]:
@@ -193,7 +192,7 @@ class Validation:
         low, high = self._footprint.min(axis=0), self._footprint.max(axis=0)
         middle, extent = (low + high) / 2, (high - low) / 2
         core = np.maximum(1 - (slack / scale)[:, None] / extent, LEAST_CORE)[:, None]
-        # Of an object that is thinner than that the rest is taken off what is around it.
+        # Of an object that is thinner than that the rest is added to the room: it may begin inside a wall.
         rest = np.maximum(0.0, slack - (1 - LEAST_CORE) * scale * extent.min())
         outlines = self._outlines(middle + core * (self._footprint - middle), position, angle, mirrored, scale)
         first = run_starts(which).tolist()
@@ -204,17 +203,14 @@ class Validation:
                 room = target.parent.shape.buffer(off, join_style="mitre") if off else target.parent.shape
                 shapely.prepare(room)
                 hopeless[start:end] = ~shapely.covers(room, there)
-            hopeless[start + self._tree(target, off).query(there, predicate="intersects")[0]] = True
+            hopeless[start + self._tree(target).query(there, predicate="intersects")[0]] = True
         return hopeless
 
-    def _tree(self, target: Arrangement, off: float = 0.0) -> shapely.STRtree:
-        """The obstacles of an arrangement, without a margin all around."""
-        trees = self._trees.setdefault(target, {})
-        tree = trees.get(off)
+    def _tree(self, target: Arrangement) -> shapely.STRtree:
+        """The obstacles of an arrangement."""
+        tree = self._trees.get(target)
         if tree is None:
-            shapes = np.array([self._obstacle(m) for _, m in self.obstacles(target)], dtype=object)
-            shapes = shapely.buffer(shapes, -off, join_style="mitre") if off else shapes
-            tree = trees[off] = shapely.STRtree(shapes)
+            tree = self._trees[target] = shapely.STRtree([self._obstacle(m) for _, m in self.obstacles(target)])
         return tree
 
     @staticmethod
