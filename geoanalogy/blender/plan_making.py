@@ -98,7 +98,7 @@ def _refuse_results(items: Iterable[bpy.types.ID]) -> None:
 def polygons_from_lines(
     context: bpy.types.Context, items: Sequence[bpy.types.Object], label: str
 ) -> list[bpy.types.Object]:
-    """Make a mesh with one face of every closed line of objects.
+    """Make a mesh with one face of every closed line of objects; their labels go over to the meshes.
 
     Parameters
     ----------
@@ -136,6 +136,10 @@ def polygons_from_lines(
             made.append((Polygon(plane.to_plane(ring)[:, :2], label=own, id=id), plane))
     plan = ensure_plan(context.scene)
     polygons = [_add_polygon(plan, polygon, plane) for polygon, plane in made]
+    # A labelled line is a polygon itself: with its label left on, each would be there twice.
+    for item in items:
+        if item.library is None:
+            item.pop(names.LABEL, None)
     select_only(polygons)
     return polygons
 

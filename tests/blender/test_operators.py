@@ -109,6 +109,18 @@ def test_make_polygons_makes_a_face_of_every_spline():
     assert tuple(made.location) == pytest.approx((1, 2, 0), abs=1e-3)
 
 
+def test_a_label_goes_over_to_the_polygons_that_are_made():
+    bpy.ops.curve.primitive_bezier_circle_add(radius=2.0)
+    drawn = bpy.context.object
+    drawn["ga_label"] = "pond"
+    activate(drawn)
+    assert bpy.ops.geoanalogy.make_polygons(EXEC) == {"FINISHED"}
+    (made,) = bpy.context.scene.geoanalogy.plan.objects
+    assert made["ga_label"] == "pond"
+    # The line does not count beside it.
+    assert "ga_label" not in drawn
+
+
 GEOJSON = """{"type": "FeatureCollection", "features": [
  {"type": "Feature", "properties": {"label": "house", "id": "h"}, "geometry": {"type": "Polygon", "coordinates":
   [[[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]], [[4, 4], [5, 4], [5, 5], [4, 5], [4, 4]]]}},
