@@ -41,7 +41,7 @@ class RegionMatch:
     Attributes
     ----------
     similarity : float
-        0 to 1; 1 for an identical copy.
+        0 to 1; 1 for an identical copy, a little less where it has only a handful of lines.
     mirrored : bool
         Whether the target is a mirror image.
     coverage : float
