@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import platform
 import statistics
@@ -52,13 +53,20 @@ def seconds(work: Callable[[], object], runs: int = RUNS, prepare: Callable[[], 
     No further run starts once they have taken `ENOUGH` together, with what is not measured.
     """
     taken: list[float] = []
-    begin = time.perf_counter()
-    while len(taken) < runs and not (taken and time.perf_counter() - begin > ENOUGH):
-        if prepare is not None:
-            prepare()
-        start = time.perf_counter()
-        work()
-        taken.append(time.perf_counter() - start)
+    # What was measured before leaves objects that are none of this work's garbage.
+    gc.collect()
+    gc.freeze()
+    try:
+        begin = time.perf_counter()
+        while len(taken) < runs and not (taken and time.perf_counter() - begin > ENOUGH):
+            if prepare is not None:
+                prepare()
+            gc.collect()
+            start = time.perf_counter()
+            work()
+            taken.append(time.perf_counter() - start)
+    finally:
+        gc.unfreeze()
     return statistics.median(taken)
 
 

@@ -41,7 +41,7 @@ STRONG = 0.05
 
 #: How far poses are expected to move, in half-widths of level sets and of directions: at first, and once the last
 #: candidates have been dropped.
-SEARCHING = (6.0, 2.0)
+SEARCHING = (4.0, 2.0)
 SETTLING = (1.0, 0.5)
 
 #: Misses below this share of the width count as met when they are weighted: keeps the weights finite. Sharper with
