@@ -110,6 +110,10 @@ class PoseSettings:
             matching_accuracy=self.matching_accuracy,
         )
 
+    def counts(self, name: str) -> bool:
+        """Whether an option does anything as the others are set."""
+        return True
+
     def draw_pose_settings(self, layout: bpy.types.UILayout) -> None:
         """Draw them into a redo panel."""
         for name in self.shown:
@@ -119,7 +123,7 @@ class PoseSettings:
             return
         for name in self.shown_more:
             row = layout.row()
-            row.active = name != "direction_bins" or self.accumulation == "pose space"
+            row.active = self.counts(name)
             row.prop(self, name)
         column = layout.column(heading="Relations")
         column.prop(self, "relations")
@@ -176,6 +180,10 @@ class SearchSettings(PoseSettings):
 
     shown = (*SHOWN[:2], "accumulation", "level_set_width", *SHOWN[2:])
     shown_more = (*MORE, "direction_width", "cells", "direction_bins", "candidates")
+
+    def counts(self, name: str) -> bool:
+        """Whether an option does anything as the others are set."""
+        return name != "direction_bins" or self.accumulation == "pose space"
 
     def pose_options(self) -> PoseOptions:
         """The options as the engine takes them; an InputError where clearance or weights cannot be read."""

@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from ..arguments import is_flag
 from ..errors import InputError
 
 
@@ -157,7 +158,7 @@ def flag(value: Any) -> bool:
     -------
     bool
     """
-    if value not in (False, True):
+    if not is_flag(value):
         raise InputError(f"{value!r} is neither true nor false")
     return bool(value)
 

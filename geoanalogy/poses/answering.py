@@ -14,7 +14,7 @@ from .arrangement import Arrangement
 from .candidates import Candidates
 from .explanation import explain
 from .giving_way import give_way
-from .importance import Importance
+from .importance import Importance, arrangements_of
 from .kernels import wrap
 from .matching import Sense
 from .pose import Pose
@@ -148,12 +148,11 @@ class Answering:
 
     def _stand(self, importances: Sequence[Importance], poses: Refined, slack: float) -> Bools:
         """Whether poses that move no further than `slack`, in half-widths of level sets, may be accepted."""
-        number = {t: k for k, t in enumerate(dict.fromkeys(i.target for i in importances))}
-        target = np.array([number[i.target] for i in importances], dtype=np.intp)[poses.which]
+        targets, number = arrangements_of(importances)
         mirrored = np.array([i.mirrored for i in importances], dtype=bool)[poses.which]
         scale = np.array([i.scale for i in importances])[poses.which]
         width = np.array([i.width for i in importances])[poses.which]
-        targets = list(number)
+        target = number[poses.which]
         return ~self._validation.hopeless(targets, target, poses.position, poses.angle, mirrored, scale, slack * width)
 
     def ranked(self, found: Sequence[PropagatedPose]) -> list[PropagatedPose]:
@@ -257,8 +256,8 @@ class Answering:
 
 def _by_arrangement(importances: Sequence[Importance], poses: Refined) -> Iterator[tuple[Arrangement, slice]]:
     """The arrangements that poses are in, and which those are."""
-    number = {t: k for k, t in enumerate(dict.fromkeys(i.target for i in importances))}
-    there = np.array([number[i.target] for i in importances], dtype=np.intp)[poses.which]
+    targets, number = arrangements_of(importances)
+    there = number[poses.which]
     first = run_starts(there)
     for start, size in zip(first.tolist(), sizes(first, len(there)).tolist(), strict=True):
-        yield importances[int(poses.which[start])].target, slice(start, start + size)
+        yield targets[there[start]], slice(start, start + size)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..relations.elements import Elements, ElementType
-from .importance import Importance
+from .importance import Importance, arrangements_of
 from .part import Part
 from .pruning import near, strongest
 from .rows import Rows
@@ -41,12 +41,11 @@ class Batch:
         self.query = importances[0].query
         width = np.array([i.width for i in importances])
         self.unit = np.column_stack([width, width, np.full(len(width), self.query.options.direction_width)])
-        number = {t: k for k, t in enumerate(dict.fromkeys(i.target for i in importances))}
-        self.arrangement = np.array([number[i.target] for i in importances])
-        elements = Elements.joined([t.elements for t in number])
+        targets, self.arrangement = arrangements_of(importances)
+        elements = Elements.joined([t.elements for t in targets])
         self._parts: list[Part] = []
         for element in ElementType:
-            first = np.cumsum([0, *(t.elements.count(element) for t in number)])[self.arrangement]
+            first = np.cumsum([0, *(t.elements.count(element) for t in targets)])[self.arrangement]
             part = Part.of(element, elements, importances, first)
             if part is not None:
                 self._parts.append(part)

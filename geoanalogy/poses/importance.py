@@ -1,6 +1,7 @@
 """What poses in an arrangement are asked, and what an answer is worth: the terms of the importance of section 4.5."""
 
 import copy
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -113,3 +114,20 @@ class Importance:
         if not self.query.rigid or element is ElementType.SEGMENT:
             return np.ones(len(sample), dtype=bool)
         return (sample == 0) & (element is ElementType.POLYGON)
+
+
+def arrangements_of(importances: Sequence[Importance]) -> tuple[list[Arrangement], Indices]:
+    """The arrangements of importances, each once, and which of them each importance is of.
+
+    Parameters
+    ----------
+    importances : sequence of Importance
+
+    Returns
+    -------
+    arrangements : list of Arrangement
+        In the order in which they first come.
+    number : ndarray of shape (importances,), int
+    """
+    number = {t: k for k, t in enumerate(dict.fromkeys(i.target for i in importances))}
+    return list(number), np.array([number[i.target] for i in importances], dtype=np.intp)

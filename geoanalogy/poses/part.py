@@ -82,7 +82,7 @@ class Part:
 
     @classmethod
     def of(
-        cls, element: ElementType, elements: Elements, importances: Sequence[Importance], first: Sequence[int]
+        cls, element: ElementType, elements: Elements, importances: Sequence[Importance], first: Indices
     ) -> "Part | None":
         """The answers for one type of element.
 
@@ -93,7 +93,7 @@ class Part:
             Of all arrangements, joined.
         importances : sequence of Importance
             All of the same query.
-        first : sequence of int
+        first : ndarray of shape (importances,), int
             Number of the first element of each importance's arrangement.
 
         Returns

@@ -1,12 +1,11 @@
 """Which candidates are worth going on with: those of one arrangement stand against one another."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..relations.runs import run_starts
 from .batch import Batch
 from .importance import Importance
 
@@ -51,18 +50,6 @@ class Refined:
         Refined
         """
         return Refined(self.which[chosen], self.position[chosen], self.angle[chosen], self.value[chosen])
-
-    def by_importance(self) -> Iterator[tuple[int, slice]]:
-        """The number of every importance that has poses, and which they are.
-
-        Yields
-        ------
-        int, slice
-        """
-        first = run_starts(self.which)
-        yield from zip(
-            self.which[first].tolist(), map(slice, first.tolist(), [*first[1:].tolist(), None]), strict=False
-        )
 
     def bettered(self, position: Array, angle: Array, value: Array) -> "Refined":
         """Each pose, or the one offered in its place where that is worth more.
