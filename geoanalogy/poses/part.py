@@ -82,7 +82,7 @@ class Part:
 
     @classmethod
     def of(
-        cls, element: ElementType, elements: Elements, importances: Sequence[Importance], first: Indices
+        cls, element: ElementType, elements: Elements, importances: Sequence[Importance], first: Sequence[int] | Indices
     ) -> "Part | None":
         """The answers for one type of element.
 
