@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -17,7 +17,7 @@ from .giving_way import give_way
 from .importance import Importance, arrangements_of
 from .kernels import wrap
 from .matching import Sense
-from .pose import Pose
+from .pose import Pose, outlines_at
 from .query import Query
 from .refinement import refine
 from .results import PropagatedPose, RelationShare
@@ -26,9 +26,6 @@ from .validation import Validation
 
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
-
-#: Importance, position, angle, and the importance that they are of.
-Found = tuple[float, Array, float, Importance]
 
 #: Differences in importance below this are none: about what the refinement leaves.
 EQUAL = 1e-4
@@ -40,6 +37,26 @@ SCALED_FACTOR = 0.95
 #: The object gives way from a place that may not be accepted where that is worth more than the best accepted one by
 #: this factor: to give way costs about as much.
 WORTH_GIVING_WAY = 1.2
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A place of an arrangement, before it is told: most give way to better ones.
+
+    Attributes
+    ----------
+    worth : float
+        Its importance, less what its size takes off.
+    position : ndarray of shape (2,)
+    angle : float
+    importance : Importance
+        What found it.
+    """
+
+    worth: float
+    position: Array
+    angle: float
+    importance: Importance
 
 
 class Answering:
@@ -96,11 +113,12 @@ class Answering:
                 self._accept(importances, factor, aside, found)
         results = []
         for target, places in found.items():
-            apart = self._apart(self.ranked([self._result(target, *place) for place in places]))
+            apart = self._apart(self._best_first(target, places))
             most = min(
                 self._options.candidates, self._options.max_per.get(target.parent.label, self._options.candidates)
             )
-            results += self.ranked(self._passable(target, apart))[:most]
+            kept = self._best_first(target, self._passable(target, apart))[:most]
+            results += [self._result(target, place) for place in kept]
         return results
 
     def _accept(
@@ -123,7 +141,7 @@ class Answering:
             accepted[k] = self._validation.accepts(target, poses.position[k], poses.angle[k], mirrored[k], scale[k])
             k = k[accepted[k]]
             importance = [importances[w] for w in poses.which[k].tolist()]
-            found[target] += zip(worth[k].tolist(), poses.position[k], poses.angle[k].tolist(), importance, strict=True)
+            found[target] += map(Found, worth[k].tolist(), poses.position[k], poses.angle[k].tolist(), importance)
         return poses.of(good & ~accepted)
 
     def _beside(
@@ -137,7 +155,7 @@ class Answering:
         """Beside what the object gives way, of each importance: refused places that would be much the best."""
         beside = []
         for k, importance in enumerate(importances):
-            least = WORTH_GIVING_WAY * max((place[0] for place in found[importance.target]), default=0.0)
+            least = WORTH_GIVING_WAY * max((place.worth for place in found[importance.target]), default=0.0)
             poses = refused.of((refused.which == k) & (refused.value * factor[k] > least))
             better = Candidates(poses.position, poses.angle, poses.value)
             beside.append(better if found[importance.target] else better.joined(free(importance)))
@@ -167,18 +185,32 @@ class Answering:
         list of PropagatedPose
         """
         importance = np.array([p.importance for p in found])
-        frame = np.array([p.parent.main_orientation for p in found]) - self._arrangement.parent.main_orientation
-        turn = np.abs(wrap(np.array([p.pose.angle for p in found]) - self._pose.angle - frame)).round(3)
-        order = np.argsort(-importance, kind="stable")
+        frame = np.array([p.parent.main_orientation for p in found])
+        angle = np.array([p.pose.angle for p in found])
+        mirrored = np.array([p.mirrored for p in found], dtype=bool)
+        return [found[i] for i in self._order(importance, frame, angle, mirrored)]
+
+    def _best_first(self, target: Arrangement, places: Sequence[Found]) -> list[Found]:
+        """Places of one arrangement, ranked as results are."""
+        worth = np.array([p.worth for p in places])
+        angle = np.array([p.angle for p in places])
+        mirrored = np.array([p.importance.mirrored for p in places], dtype=bool)
+        return [places[i] for i in self._order(worth, target.parent.main_orientation, angle, mirrored)]
+
+    def _order(self, worth: Array, frame: Array | float, angle: Array, mirrored: Bools) -> list[int]:
+        """The numbers of poses in frames of a direction, in the order of `ranked`."""
+        turned = frame - self._arrangement.parent.main_orientation
+        turn = np.abs(wrap(angle - self._pose.angle - turned)).round(3)
+        order = np.argsort(-worth, kind="stable")
         # Equals are those that the best of them is hardly better than.
         group = np.zeros(len(order), dtype=np.intp)
         first = 0
         for i in range(1, len(order)):
-            if importance[order[first]] - importance[order[i]] > EQUAL:
+            if worth[order[first]] - worth[order[i]] > EQUAL:
                 first = i
             group[order[i]] = first
-        mirrored = np.array([p.mirrored != self._pose.mirrored for p in found])
-        return [found[i] for i in np.lexsort((turn, mirrored, group))]
+        ranks: list[int] = np.lexsort((turn, mirrored != self._pose.mirrored, group)).tolist()
+        return ranks
 
     def is_example(self, target: Arrangement, position: Array) -> Bools:
         """Whether poses are the example itself, or its mirror image in the same place.
@@ -205,41 +237,43 @@ class Answering:
             return 2 * self._query.width
         return float(np.ptp(self._footprint, axis=0).min()) / 2
 
-    def _result(
-        self, target: Arrangement, value: float, position: Array, angle: float, importance: Importance
-    ) -> PropagatedPose:
-        """A place found, as it is told."""
+    def _result(self, target: Arrangement, found: Found) -> PropagatedPose:
+        """A place, as it is told."""
+        position, angle, importance = found.position, found.angle, found.importance
         pose = Pose((position[0], position[1]), angle % math.tau % math.tau, importance.mirrored)
         # Results outlive the fields of their parents, so they hold none of them.
         surroundings = partial(Arrangement, target.parent, target.members)
         explain = partial(self._explain, surroundings, importance.sense, importance.scale, position, angle)
-        return PropagatedPose(pose, value, target.parent, importance.scale, explain)
+        return PropagatedPose(pose, found.worth, target.parent, importance.scale, explain)
 
-    def _apart(self, found: list[PropagatedPose]) -> list[PropagatedPose]:
+    def _apart(self, places: list[Found]) -> list[Found]:
         """The best of one parent that keep their distance (non-maximum suppression)."""
         in_space = self._options.accumulation == "pose space"
-        kept: list[PropagatedPose] = []
-        for p in found:
+        kept: list[Found] = []
+        for p in places:
             # In pose space two directions at one place are two answers (figure 4.17).
             if not any(
-                math.dist(p.pose.position, k.pose.position) < self._reach * p.scale
-                and not (
-                    in_space
-                    and abs(math.remainder(p.pose.angle - k.pose.angle, math.tau)) > self._options.direction_width
-                )
+                math.dist(p.position, k.position) < self._reach * p.importance.scale
+                and not (in_space and abs(math.remainder(p.angle - k.angle, math.tau)) > self._options.direction_width)
                 for k in kept
             ):
                 kept.append(p)
         return kept
 
-    def _passable(self, target: Arrangement, found: list[PropagatedPose]) -> list[PropagatedPose]:
+    def _passable(self, target: Arrangement, places: list[Found]) -> list[Found]:
         """The same, worth less as far as they are in the way where the example is not."""
-        if self._footprint is None or not self._options.validate or not len(target.fronts) or not found:
-            return found
-        outlines = shapely.polygons([p.pose.to_scene(self._footprint * p.scale) for p in found])
+        if self._footprint is None or not self._options.validate or not len(target.fronts) or not places:
+            return places
+        outlines = outlines_at(
+            self._footprint,
+            np.array([p.position for p in places]),
+            np.array([p.angle for p in places]),
+            np.array([p.importance.mirrored for p in places], dtype=bool),
+            np.array([p.importance.scale for p in places]),
+        )
         left = target.fronts.passable(outlines, self._in_front)
-        less = (replace(p, importance=p.importance * f) for p, f in zip(found, left.tolist(), strict=True))
-        return [p for p in less if p.importance >= self._options.threshold]
+        less = (replace(p, worth=p.worth * f) for p, f in zip(places, left.tolist(), strict=True))
+        return [p for p in less if p.worth >= self._options.threshold]
 
     @cached_property
     def _in_front(self) -> dict[str, float]:

@@ -1,8 +1,10 @@
 """Poses: a position with a direction, and whether the object is mirrored (sections 4.2 and 4.6)."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from ..arguments import is_flag, points_of, shown
@@ -49,7 +51,7 @@ class Pose:
         if not is_flag(self.mirrored):
             raise InputError(f"the pose is mirrored or not, but not {shown(self.mirrored)}; give True or False")
         object.__setattr__(self, "mirrored", bool(self.mirrored))
-        if not np.isfinite([x, y, angle]).all():
+        if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(angle)):
             raise InputError("the pose has a position or angle that is not finite; give numbers")
         object.__setattr__(self, "position", (x, y))
         object.__setattr__(self, "angle", angle)
@@ -104,3 +106,36 @@ def footprint_ring(footprint: ArrayLike | None) -> NDArray[np.float64] | None:
         For anything that is no simple ring with an area.
     """
     return None if footprint is None else clean_ring(footprint, "the footprint")[0]
+
+
+def outlines_at(
+    ring: NDArray[np.float64],
+    position: NDArray[np.float64],
+    angle: NDArray[np.float64],
+    mirrored: NDArray[np.bool_] | bool,
+    scale: NDArray[np.float64] | float,
+) -> NDArray[np.object_]:
+    """A footprint at many poses.
+
+    Parameters
+    ----------
+    ring : ndarray of shape (n, 2) or (m, n, 2)
+        In the pose's frame; or one of each pose.
+    position : ndarray of shape (m, 2)
+    angle : ndarray of shape (m,)
+    mirrored : bool or ndarray of shape (m,), bool
+    scale : float or ndarray of shape (m,)
+        Of the footprint.
+
+    Returns
+    -------
+    ndarray of shape (m,)
+        shapely polygons in scene coordinates.
+    """
+    scale = np.asarray(scale)[..., None]
+    x, y = ring[..., 0] * scale, ring[..., 1] * scale * np.where(mirrored, -1.0, 1.0)[..., None]
+    c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
+    outlines = np.empty((len(position), ring.shape[-2], 2))
+    outlines[..., 0] = position[:, :1] + c * x - s * y
+    outlines[..., 1] = position[:, 1:] + s * x + c * y
+    return shapely.polygons(outlines)  # type: ignore[no-any-return]

@@ -14,7 +14,7 @@ from ..tolerances import TOUCHING_SHARE
 from .arrangement import Arrangement
 from .fields import Fields
 from .options import PoseOptions
-from .pose import Pose
+from .pose import Pose, outlines_at
 
 Array = NDArray[np.float64]
 
@@ -144,7 +144,7 @@ class Validation:
         """
         if self._footprint is None or not self._options.validate:
             return shapely.intersects_xy(target.parent.shape, *position.T)  # type: ignore[no-any-return]
-        outlines = self._outlines(self._footprint, position, angle, mirrored, scale)
+        outlines = outlines_at(self._footprint, position, angle, mirrored, scale)
         # What lies in the parent whole need not be measured.
         shapely.prepare(target.parent.shape)
         accepted: NDArray[np.bool_] = shapely.covers(target.parent.shape, outlines)
@@ -194,7 +194,7 @@ class Validation:
         core = np.maximum(1 - (slack / scale)[:, None] / extent, LEAST_CORE)[:, None]
         # Of an object that is thinner than that the rest is added to the room: it may begin inside a wall.
         rest = np.maximum(0.0, slack - (1 - LEAST_CORE) * scale * extent.min())
-        outlines = self._outlines(middle + core * (self._footprint - middle), position, angle, mirrored, scale)
+        outlines = outlines_at(middle + core * (self._footprint - middle), position, angle, mirrored, scale)
         first = run_starts(which).tolist()
         for start, end in zip(first, [*first[1:], len(which)], strict=True):
             target = targets[which[start]]
@@ -212,19 +212,6 @@ class Validation:
         if tree is None:
             tree = self._trees[target] = shapely.STRtree([self._obstacle(m) for _, m in self.obstacles(target)])
         return tree
-
-    @staticmethod
-    def _outlines(
-        ring: Array, position: Array, angle: Array, mirrored: NDArray[np.bool_] | bool, scale: Array | float
-    ) -> NDArray[np.object_]:
-        """A ring in the pose's frame, or one of each pose, at every pose."""
-        scale = np.asarray(scale)[..., None]
-        x, y = ring[..., 0] * scale, ring[..., 1] * scale * np.where(mirrored, -1.0, 1.0)[..., None]
-        c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
-        outlines = np.empty((len(position), ring.shape[-2], 2))
-        outlines[..., 0] = position[:, :1] + c * x - s * y
-        outlines[..., 1] = position[:, 1:] + s * x + c * y
-        return shapely.polygons(outlines)  # type: ignore[no-any-return]
 
 
 def _share_more_than_a_sliver(outlines: NDArray[np.object_], obstacles: NDArray[np.object_]) -> NDArray[np.bool_]:
