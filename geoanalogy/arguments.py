@@ -3,6 +3,7 @@
 import numbers
 import os
 import reprlib
+import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -87,6 +88,134 @@ def is_flag(value: object) -> bool:
     bool
     """
     return real(value) in (0.0, 1.0)
+
+
+def number(value: Any, name: str, least: float, most: float | None = None) -> float:
+    """A number within limits.
+
+    Parameters
+    ----------
+    value : object
+    name : str
+        What it is called in messages.
+    least : float
+    most : float, optional
+        None: any finite number from `least` on.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    InputError
+        For a number outside the limits, and for what is none.
+    """
+    if not least <= real(value) <= (sys.float_info.max if most is None else most):
+        wanted = f"a finite number from {least:g} on" if most is None else f"a number from {least:g} to {most:g}"
+        raise InputError(f"{name} is {shown(value)}; give {wanted}")
+    return real(value)
+
+
+def positive(value: Any, name: str, most: float | None = None) -> float:
+    """A number above zero.
+
+    Parameters
+    ----------
+    value : object
+    name : str
+        What it is called in messages.
+    most : float, optional
+        None: any finite number; infinity: any.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    InputError
+        For a number outside the limits, and for what is none.
+    """
+    if not 0 < real(value) <= (sys.float_info.max if most is None else most):
+        wanted = "a finite positive number" if most is None else "a positive number"
+        limit = f" up to {most:g}" if most is not None and most < float("inf") else ""
+        raise InputError(f"{name} is {shown(value)}; give {wanted}{limit}")
+    return real(value)
+
+
+def count(value: Any, name: str, least: int = 0, most: int | None = None) -> int:
+    """A whole number within limits.
+
+    Parameters
+    ----------
+    value : object
+    name : str
+        What it is called in messages.
+    least : int
+    most : int, optional
+        None: any from `least` on.
+
+    Returns
+    -------
+    int
+
+    Raises
+    ------
+    InputError
+        For a number outside the limits or between two whole ones, and for what is none.
+    """
+    if not is_whole(value) or not least <= value or (most is not None and value > most):
+        limit = "on" if most is None else f"to {most}"
+        raise InputError(f"{name} is {shown(value)}; give a whole number from {least} {limit}")
+    return int(value)
+
+
+def flag(value: Any, name: str) -> bool:
+    """True or false.
+
+    Parameters
+    ----------
+    value : object
+    name : str
+        What it is called in messages.
+
+    Returns
+    -------
+    bool
+
+    Raises
+    ------
+    InputError
+        For what is neither.
+    """
+    if not is_flag(value):
+        raise InputError(f"{name} is {shown(value)}; give True or False")
+    return bool(value)
+
+
+def word(value: Any, name: str, *allowed: str) -> str:
+    """One of a few words.
+
+    Parameters
+    ----------
+    value : object
+    name : str
+        What it is called in messages.
+    *allowed : str
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    InputError
+        For anything else.
+    """
+    if not isinstance(value, str) or value not in allowed:
+        raise InputError(f"{name} is {shown(value)}; choose from {', '.join(allowed)}")
+    return str(value)
 
 
 def points_of(value: Any, name: str) -> NDArray[np.float64]:

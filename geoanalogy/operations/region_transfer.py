@@ -1,7 +1,6 @@
 """Region transfer: what is painted on one region of a drawing goes to all similar regions (chapter 3)."""
 
-import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -100,25 +99,6 @@ def _write_lines(lines: Sequence[Sequence[Sequence[float]]]) -> list[list[list[f
     return [_write_line(line) for line in lines]
 
 
-def _read_options(value: Mapping[str, Any]) -> RegionOptions:
-    plain = RegionOptions()
-    known = {f.name: type(getattr(plain, f.name)) for f in dataclasses.fields(RegionOptions)}
-    unknown = sorted(set(value) - set(known))
-    if unknown:
-        raise InputError(f"there is no option {', '.join(map(repr, unknown))}; it may come from a newer version")
-    # Blender's custom properties keep true and false as 1 and 0.
-    return RegionOptions(**{name: known[name](v) for name, v in value.items()})
-
-
-def _write_options(options: RegionOptions) -> dict[str, Any]:
-    plain = RegionOptions()
-    return {
-        f.name: getattr(options, f.name)
-        for f in dataclasses.fields(options)
-        if getattr(options, f.name) != getattr(plain, f.name)
-    }
-
-
 @dataclass(frozen=True, kw_only=True)
 class RegionTransfer(Operation):
     """Find the regions of a drawing that are similar to a query, to carry what is painted on it to all of them.
@@ -142,7 +122,9 @@ class RegionTransfer(Operation):
 
     query: tuple[tuple[float, float], ...] = field(metadata=stored(_read_line, _write_line))
     lines: tuple[tuple[tuple[float, float], ...], ...] = field(metadata=stored(_read_lines, _write_lines))
-    options: RegionOptions = field(default_factory=RegionOptions, metadata=stored(_read_options, _write_options))
+    options: RegionOptions = field(
+        default_factory=RegionOptions, metadata=stored(RegionOptions.from_dict, RegionOptions.to_dict)
+    )
     threshold: float = field(default=0.0, metadata=stored(number, late=True))
     decisions: Decisions = field(
         default_factory=Decisions, metadata=stored(Decisions.from_dict, Decisions.to_dict, late=True)

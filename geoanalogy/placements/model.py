@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arguments import given, is_flag, real, shown
+from ..arguments import flag, given, number
 from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..geometry.rectangle import Rectangle
@@ -118,10 +118,8 @@ class PlacementModel:
         """
         least = self.options.threshold if threshold is None else threshold
         given(scene, Scene, "the scene", "Scene([polygon, …])")
-        if not is_flag(include_examples):
-            raise InputError(f"include_examples is {shown(include_examples)}; give True or False")
-        if not 0 <= real(least) <= 1:
-            raise InputError(f"the threshold is {shown(least)}; give a number from 0 to 1")
+        flag(include_examples, "include_examples")
+        least = number(least, "the threshold", 0, 1)
         parents = [p for p in scene.polygons if p.label == self.label]
         taught = [self.lesson.taught[i].standing for i in self.lesson.positive]
         against = row_odds(scene, self.label, [s for s in taught if s is not None])

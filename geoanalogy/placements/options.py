@@ -1,16 +1,16 @@
 """What the user can set about placements."""
 
-from dataclasses import asdict, dataclass, fields
-from typing import Any
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from math import inf, isinf
+from typing import Any, Self
 
-import numpy as np
-
-from ..arguments import given, is_flag, is_whole, real, shown
-from ..errors import InputError
+from ..arguments import count, flag, number, positive
+from ..options import Options, option
 
 
 @dataclass(frozen=True)
-class PlacementOptions:
+class PlacementOptions(Options):
     """Options of learning and placing.
 
     Attributes
@@ -41,35 +41,17 @@ class PlacementOptions:
         For values out of range.
     """
 
-    threshold: float = 0.5
-    tau: float = 1.0
-    neighbours: int = 3
-    aspect_tolerance: float = 1.0
-    area_tolerance: float = 1.5
-    mirrored: bool = False
-    allow_overlaps: float = 0.02
-    forbid_intersections: bool = False
-    between: bool = True
+    subject = "placements"
 
-    def __post_init__(self) -> None:
-        for name in ("aspect_tolerance", "area_tolerance"):
-            if not (value := real(getattr(self, name))) > 0:
-                raise InputError(f"the option {name} is {shown(getattr(self, name))}; give a positive number")
-            object.__setattr__(self, name, value)
-        if not 0 < real(self.tau) <= 1000:
-            raise InputError(f"the option tau is {shown(self.tau)}; give a positive number up to 1000")
-        for name in ("threshold", "allow_overlaps"):
-            if not 0 <= real(value := getattr(self, name)) <= 1:
-                raise InputError(f"the option {name} is {shown(value)}; give a number from 0 to 1")
-        for name in ("tau", "threshold", "allow_overlaps"):
-            object.__setattr__(self, name, float(getattr(self, name)))
-        if not is_whole(self.neighbours) or not 1 <= self.neighbours <= 1000:
-            raise InputError(f"the option neighbours is {shown(self.neighbours)}; give a whole number from 1 to 1000")
-        object.__setattr__(self, "neighbours", int(self.neighbours))
-        for name in ("mirrored", "forbid_intersections", "between"):
-            if not is_flag(value := getattr(self, name)):
-                raise InputError(f"the option {name} is {shown(value)}; give True or False")
-            object.__setattr__(self, name, bool(value))
+    threshold: float = option(0.5, number, 0, 1)
+    tau: float = option(1.0, positive, 1000)
+    neighbours: int = option(3, count, 1, 1000)
+    aspect_tolerance: float = option(1.0, positive, inf)
+    area_tolerance: float = option(1.5, positive, inf)
+    mirrored: bool = option(False, flag)
+    allow_overlaps: float = option(0.02, number, 0, 1)
+    forbid_intersections: bool = option(False, flag)
+    between: bool = option(True, flag)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data, as it is written to JSON.
@@ -79,15 +61,15 @@ class PlacementOptions:
         dict
             An infinite tolerance is None there.
         """
-        return {k: None if isinstance(v, float) and np.isinf(v) else v for k, v in asdict(self).items()}
+        return {k: None if isinstance(v, float) and isinf(v) else v for k, v in asdict(self).items()}
 
     @classmethod
-    def from_dict(cls, plain: dict[str, Any]) -> "PlacementOptions":
+    def from_dict(cls, plain: Mapping[str, Any]) -> Self:
         """The inverse of `to_dict`.
 
         Parameters
         ----------
-        plain : dict
+        plain : mapping
 
         Returns
         -------
@@ -98,9 +80,6 @@ class PlacementOptions:
         InputError
             For a name that is no option, and for values out of range.
         """
-        given(plain, dict, "what is stored as options of placements", "names and values")
-        unknown = ", ".join(sorted(str(k) for k in set(plain) - {f.name for f in fields(cls)}))
-        if unknown:
-            raise InputError(f"{unknown} is no option of placements; it may come from a newer version")
-        values: dict[str, Any] = {k: np.inf if v is None else v for k, v in plain.items()}
-        return cls(**values)
+        if isinstance(plain, Mapping):
+            plain = {k: inf if v is None else v for k, v in plain.items()}
+        return super().from_dict(plain)

@@ -8,10 +8,11 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..arguments import is_flag, real, shown
+from ..arguments import flag, number, positive, word
 from ..errors import InputError
 from ..geometry.polygon import Polygon
 from ..geometry.scene import Scene
+from ..options import Options, option
 from ..progress import Progress, Stepper, run, within
 from .arrangement import arrangement_of
 from .model import PoseModel
@@ -33,7 +34,7 @@ MUCH_WEAKER = 0.7
 
 
 @dataclass(frozen=True)
-class ArrayOptions:
+class ArrayOptions(Options):
     """How arrays are made.
 
     Attributes
@@ -53,22 +54,13 @@ class ArrayOptions:
         it. Arrays from mirrored starts run the other way.
     """
 
-    corners: Literal["round", "mitre"] = "round"
-    even: bool = False
-    threshold: float = 0.3
-    validate: bool = True
-    way: Literal["shorter", "left", "right"] = "shorter"
+    subject = "arrays"
 
-    def __post_init__(self) -> None:
-        for name, allowed in (("corners", ("round", "mitre")), ("way", ("shorter", "left", "right"))):
-            value = getattr(self, name)
-            if not isinstance(value, str) or value not in allowed:
-                raise InputError(f"the array option {name} is {shown(value)}; choose from {', '.join(allowed)}")
-        if not 0 <= real(self.threshold) <= 1:
-            raise InputError(f"the array option threshold is {shown(self.threshold)}; give a number from 0 to 1")
-        for name in ("even", "validate"):
-            if not is_flag(value := getattr(self, name)):
-                raise InputError(f"the array option {name} is {shown(value)}; give True or False")
+    corners: Literal["round", "mitre"] = option("round", word, "round", "mitre")
+    even: bool = option(False, flag)
+    threshold: float = option(0.3, number, 0, 1)
+    validate: bool = option(True, flag)
+    way: Literal["shorter", "left", "right"] = option("shorter", word, "shorter", "left", "right")
 
 
 @dataclass(frozen=True)
@@ -123,13 +115,12 @@ class ArrayModel:
     """
 
     def __init__(self, start: PoseModel, end: PoseModel | None, spacing: float, options: ArrayOptions) -> None:
-        if not (math.isfinite(spacing) and spacing > 0):
-            raise InputError(f"the spacing of the array is {spacing:g}; give a positive number")
+        spacing = positive(spacing, "the spacing of the array")
         self.start = start
         if end is not None and math.dist(start.pose.position, end.pose.position) < SAME_PLACE * spacing:
             end = None
         self.end = end
-        self.spacing = float(spacing)
+        self.spacing = spacing
         self.options = options
         self._source = arrangement_of(start.source, start.parent)
         self._validation = Validation(self._source, start.pose, start.footprint, start.options)
@@ -374,7 +365,7 @@ class ArrayModel:
         try:
             start = PoseModel.from_dict(plain["start"])
             end = None if plain["end"] is None else PoseModel.from_dict(plain["end"])
-            return cls(start, end, float(plain["spacing"]), ArrayOptions(**plain["options"]))
+            return cls(start, end, float(plain["spacing"]), ArrayOptions.from_dict(plain["options"]))
         except (KeyError, TypeError) as error:
             raise InputError(f"the stored array model lacks or garbles {error}; record the operation again") from error
 

@@ -1,15 +1,17 @@
 """Mapping one polygon to another by equal local coordinates (section 4.7)."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
+from ..arguments import count, flag, points_of, shown, word
 from ..errors import InputError
 from ..geometry.polygon import Polygon
+from ..options import Options, each, option, optional
 from .correspondence import corner_costs, corresponding_arcs
 from .local_coordinates import BoundarySystem, CornerSystem, Located
 from .pose import Pose
@@ -17,8 +19,16 @@ from .pose import Pose
 Array = NDArray[np.float64]
 
 
+def _place(value: Any, name: str) -> tuple[float, float]:
+    """One point."""
+    place = points_of(value, name)
+    if place.shape != (2,):
+        raise InputError(f"{name} is {shown(value)}; give one point")
+    return float(place[0]), float(place[1])
+
+
 @dataclass(frozen=True)
-class TransferOptions:
+class TransferOptions(Options):
     """How groups are transferred.
 
     Attributes
@@ -46,71 +56,23 @@ class TransferOptions:
         their directions.
     """
 
-    system: Literal["boundary", "corner"] = "boundary"
-    distance: Literal["inscribed", "absolute", "depth"] = "inscribed"
-    corners: bool = True
-    shape: Literal["rigid", "outline"] = "rigid"
-    corner: int | None = None
-    start: tuple[float, float] | None = None
-    starts: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    upright: bool = False
+    subject = "transfers"
+
+    system: Literal["boundary", "corner"] = option("boundary", word, "boundary", "corner")
+    distance: Literal["inscribed", "absolute", "depth"] = option("inscribed", word, "inscribed", "absolute", "depth")
+    corners: bool = option(True, flag)
+    shape: Literal["rigid", "outline"] = option("rigid", word, "rigid", "outline")
+    corner: int | None = option(None, optional(count))
+    start: tuple[float, float] | None = option(None, optional(_place))
+    starts: Mapping[str, tuple[float, float]] = option({}, each("a place per target's id", _place))
+    upright: bool = option(False, flag)
 
     def __post_init__(self) -> None:
-        choices = {
-            "system": ("boundary", "corner"),
-            "distance": ("inscribed", "absolute", "depth"),
-            "shape": ("rigid", "outline"),
-        }
-        for name, allowed in choices.items():
-            if getattr(self, name) not in allowed:
-                raise InputError(
-                    f"the transfer option {name} is {getattr(self, name)!r}; choose from {', '.join(allowed)}"
-                )
+        super().__post_init__()
         if self.system == "corner" and self.distance == "depth":
             raise InputError("a corner has no depth; choose inscribed or absolute distances for the corner's system")
         if self.starts and self.start is None:
             raise InputError("starts are given without the source's start; give the place that they correspond to")
-
-    def to_dict(self) -> dict[str, Any]:
-        """What differs from the defaults, as plain data.
-
-        Returns
-        -------
-        dict
-        """
-        plain = {f.name: getattr(self, f.name) for f in fields(self) if f.name not in ("start", "starts")}
-        plain = {name: value for name, value in plain.items() if value != getattr(TransferOptions, name)}
-        if self.start is not None:
-            plain["start"] = list(self.start)
-        if self.starts:
-            plain["starts"] = {key: list(place) for key, place in self.starts.items()}
-        return plain
-
-    @classmethod
-    def from_dict(cls, plain: Mapping[str, Any]) -> "TransferOptions":
-        """The options that `to_dict` wrote.
-
-        Parameters
-        ----------
-        plain : mapping
-
-        Returns
-        -------
-        TransferOptions
-
-        Raises
-        ------
-        InputError
-            For a name that is no option.
-        """
-        unknown = sorted(set(plain) - {f.name for f in fields(cls)})
-        if unknown:
-            raise InputError(f"{', '.join(unknown)} is no option of transfers; it may come from a newer version")
-        options = dict(plain)
-        if options.get("start") is not None:
-            options["start"] = tuple(options["start"])
-        options["starts"] = {key: tuple(place) for key, place in options.get("starts", {}).items()}
-        return cls(**options)
 
 
 @dataclass(frozen=True)

@@ -1,17 +1,35 @@
 """The options of pose propagation (chapter 4), with their defaults."""
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, fields
-from math import inf
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, Literal
 
-from ..arguments import given, is_flag, is_whole, listed, points_of, real, shown
+from ..arguments import count, flag, listed, number, points_of, positive, shown, word
 from ..errors import InputError
+from ..options import Options, each, option, optional
 from ..relations.table import POSE_RELATIONS, RELATIONS
 
 
+def _relations(value: Any, name: str) -> tuple[str, ...]:
+    """Names of relations that a pose can stand in."""
+    known = [r for r, row in RELATIONS.items() if row.directional is not None]
+    relations = listed(value, name, "a list of names of relations")
+    unknown = ", ".join(f"{r}" for r in relations if not isinstance(r, str) or r not in known)
+    if unknown or not relations:
+        raise InputError(f"no relation of poses is called {unknown or 'nothing'}; choose from {', '.join(known)}")
+    return relations
+
+
+def _outline(value: Any, name: str) -> list[list[float]]:
+    """A ring, which may cross itself, as plain data."""
+    ring = points_of(value, f"the points of {name}")
+    if ring.ndim != 2 or len(ring) < 3:
+        raise InputError(f"{name} is {shown(value)}; give the three or more vertices of a ring")
+    return ring.tolist()  # type: ignore[no-any-return]
+
+
 @dataclass(frozen=True)
-class PoseOptions:
+class PoseOptions(Options):
     """How a pose is propagated.
 
     Attributes
@@ -75,126 +93,31 @@ class PoseOptions:
         Most results per parent, unless `max_per` says fewer.
     """
 
-    relations: tuple[str, ...] = tuple(r.name for r in POSE_RELATIONS)
-    threshold: float = 0.1
-    accumulation: Literal["footprint", "plane", "pose space"] = "footprint"
-    cells: int = 100_000
-    direction_bins: int = 100
-    level_set_width: float = 0.03
-    direction_width: float = 0.26
-    mirror: bool | None = None
-    upright: bool = False
-    symmetries: bool = False
-    scale: Literal["fixed", "room"] = "room"
-    labels: bool = True
-    other_parents: bool = False
-    local_importance: Literal["distance", "constant"] = "distance"
-    matching_accuracy: Literal["features", "constant"] = "features"
-    relation_weights: Mapping[str, float] = field(default_factory=dict)
-    validate: bool = True
-    alternative_geometry: Mapping[str, Sequence[tuple[float, float]]] = field(default_factory=dict)
-    clearance: Mapping[str, float] = field(default_factory=dict)
-    max_per: Mapping[str, int] = field(default_factory=dict)
-    spacing: float | None = None
-    candidates: int = 12
+    subject = "pose propagation"
 
-    def __post_init__(self) -> None:
-        known = [r for r, row in RELATIONS.items() if row.directional is not None]
-        relations = listed(self.relations, "the option relations", "a list of names of relations")
-        unknown = ", ".join(f"{r}" for r in relations if not isinstance(r, str) or r not in known)
-        if unknown or not relations:
-            raise InputError(f"no relation of poses is called {unknown or 'nothing'}; choose from {', '.join(known)}")
-        read: dict[str, Any] = {"relations": relations}
-        for name, least in (("cells", 1), ("direction_bins", 4), ("candidates", 1)):
-            read[name] = _count(getattr(self, name), f"the option {name}", least)
-        for name, most in (("level_set_width", 10.0), ("direction_width", 7.0)):
-            value = getattr(self, name)
-            if not 0 < real(value) <= most:
-                raise InputError(f"the option {name} is {shown(value)}; give a positive number up to {most:g}")
-            read[name] = float(value)
-        if not 0 <= real(self.threshold) <= 1:
-            raise InputError(f"the option threshold is {shown(self.threshold)}; give a number from 0 to 1")
-        read["threshold"] = float(self.threshold)
-        if self.spacing is not None:
-            read["spacing"] = _length(self.spacing, "the option spacing")
-        for name in ("mirror", "upright", "symmetries", "labels", "other_parents", "validate"):
-            value = getattr(self, name)
-            if not is_flag(value) and not (value is None and name == "mirror"):
-                raise InputError(f"the option {name} is {shown(value)}; give True or False")
-            read[name] = None if value is None else bool(value)
-        choices = {
-            "accumulation": ("footprint", "plane", "pose space"),
-            "scale": ("fixed", "room"),
-            "local_importance": ("distance", "constant"),
-            "matching_accuracy": ("features", "constant"),
-        }
-        for name, allowed in choices.items():
-            value = getattr(self, name)
-            if not isinstance(value, str) or value not in allowed:
-                raise InputError(f"the option {name} is {shown(value)}; choose from {', '.join(allowed)}")
-        read["relation_weights"] = self._each("relation_weights", "a factor per relation or label", _length)
-        read["clearance"] = self._each("clearance", "a width per label", _length)
-        read["max_per"] = self._each("max_per", "a number of results per label", _count)
-        read["alternative_geometry"] = self._each("alternative_geometry", "a ring per polygon id", _outline)
-        for name, value in read.items():
-            object.__setattr__(self, name, value)
-
-    def _each(self, name: str, remedy: str, read: Callable[[Any, str], Any]) -> dict[str, Any]:
-        """An option that is a mapping, its values read one by one."""
-        plain = given(getattr(self, name), Mapping, f"the option {name}", remedy)
-        return {str(key): read(value, f"the option {name} of {key!r}") for key, value in plain.items()}
-
-    def to_dict(self) -> dict[str, Any]:
-        """What differs from the defaults, as plain data.
-
-        Returns
-        -------
-        dict
-        """
-        default = asdict(PoseOptions())
-        return {k: list(v) if isinstance(v, tuple) else v for k, v in asdict(self).items() if v != default[k]}
-
-    @classmethod
-    def from_dict(cls, plain: Mapping[str, Any]) -> "PoseOptions":
-        """The options that `to_dict` wrote.
-
-        Parameters
-        ----------
-        plain : mapping
-
-        Returns
-        -------
-        PoseOptions
-
-        Raises
-        ------
-        InputError
-            For a name that is no option.
-        """
-        given(plain, Mapping, "what is stored as options of pose propagation", "names and values")
-        unknown = ", ".join(sorted(str(k) for k in set(plain) - {f.name for f in fields(cls)}))
-        if unknown:
-            raise InputError(f"{unknown} is no option of pose propagation; it may come from a newer version")
-        return cls(**plain)
-
-
-def _count(value: Any, name: str, least: int = 0) -> int:
-    """A whole number of something."""
-    if not is_whole(value) or value < least:
-        raise InputError(f"{name} is {shown(value)}; give a whole number, at least {least}")
-    return int(value)
-
-
-def _length(value: Any, name: str) -> float:
-    """A finite number that is not negative."""
-    if not 0 <= real(value) < inf:
-        raise InputError(f"{name} is {shown(value)}; give a finite number that is not negative")
-    return float(value)
-
-
-def _outline(value: Any, name: str) -> list[list[float]]:
-    """A ring, which may cross itself, as plain data."""
-    ring = points_of(value, f"the points of {name}")
-    if ring.ndim != 2 or len(ring) < 3:
-        raise InputError(f"{name} is {shown(value)}; give the three or more vertices of a ring")
-    return ring.tolist()  # type: ignore[no-any-return]
+    relations: tuple[str, ...] = option(tuple(r.name for r in POSE_RELATIONS), _relations)
+    threshold: float = option(0.1, number, 0, 1)
+    accumulation: Literal["footprint", "plane", "pose space"] = option(
+        "footprint", word, "footprint", "plane", "pose space"
+    )
+    cells: int = option(100_000, count, 1)
+    direction_bins: int = option(100, count, 4)
+    level_set_width: float = option(0.03, positive, 10)
+    direction_width: float = option(0.26, positive, 7)
+    mirror: bool | None = option(None, optional(flag))
+    upright: bool = option(False, flag)
+    symmetries: bool = option(False, flag)
+    scale: Literal["fixed", "room"] = option("room", word, "fixed", "room")
+    labels: bool = option(True, flag)
+    other_parents: bool = option(False, flag)
+    local_importance: Literal["distance", "constant"] = option("distance", word, "distance", "constant")
+    matching_accuracy: Literal["features", "constant"] = option("features", word, "features", "constant")
+    relation_weights: Mapping[str, float] = option({}, each("a factor per relation or label", number, 0))
+    validate: bool = option(True, flag)
+    alternative_geometry: Mapping[str, Sequence[tuple[float, float]]] = option(
+        {}, each("a ring per polygon id", _outline)
+    )
+    clearance: Mapping[str, float] = option({}, each("a width per label", number, 0))
+    max_per: Mapping[str, int] = option({}, each("a number of results per label", count))
+    spacing: float | None = option(None, optional(number, 0))
+    candidates: int = option(12, count, 1)

@@ -8,9 +8,10 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arguments import is_whole, real, shown
+from ..arguments import count, number, positive, word
 from ..errors import InputError
 from ..geometry.scene import Scene
+from ..options import Options, option, optional
 from ..progress import Progress, Stepper, run
 from .arrangement import Arrangement, arrangement_of
 from .candidates import accumulate_in_plane
@@ -30,7 +31,7 @@ BATCH = 64
 
 
 @dataclass(frozen=True)
-class ScatterOptions:
+class ScatterOptions(Options):
     """How poses are drawn.
 
     Attributes
@@ -51,26 +52,19 @@ class ScatterOptions:
         places.
     """
 
-    count: int | None = None
-    density: float | None = None
-    width: float = 0.15
-    spacing: float | None = None
-    directions: Literal["best", "random"] = "best"
-    sharpness: float = 1.0
+    subject = "scatters"
+
+    count: int | None = option(None, optional(count))
+    density: float | None = option(None, optional(number, 0))
+    width: float = option(0.15, positive)
+    spacing: float | None = option(None, optional(number, 0))
+    directions: Literal["best", "random"] = option("best", word, "best", "random")
+    sharpness: float = option(1.0, number, 0)
 
     def __post_init__(self) -> None:
         if (self.count is None) == (self.density is None):
             raise InputError("a scatter needs either a count per parent or a density; give one of the two")
-        if not isinstance(self.directions, str) or self.directions not in ("best", "random"):
-            raise InputError(f"the scatter option directions is {shown(self.directions)}; choose from best, random")
-        for name in ("count", "density", "spacing", "sharpness"):
-            value = getattr(self, name)
-            if not 0 <= real(value) < math.inf and (value is not None or name == "sharpness"):
-                raise InputError(f"the scatter option {name} is {shown(value)}; give a number that is not negative")
-        if self.count is not None and not is_whole(self.count):
-            raise InputError(f"the scatter option count is {shown(self.count)}; give a whole number")
-        if not 0 < real(self.width) < math.inf:
-            raise InputError(f"the scatter option width is {shown(self.width)}; give a positive number")
+        super().__post_init__()
 
     def number_in(self, area: float) -> int:
         """How many objects a parent gets.
@@ -84,7 +78,7 @@ class ScatterOptions:
         -------
         int
         """
-        return int(self.count) if self.count is not None else round((self.density or 0.0) * area)
+        return self.count if self.count is not None else round((self.density or 0.0) * area)
 
 
 @dataclass(frozen=True)
@@ -280,6 +274,6 @@ class ScatterModel:
             Where something is missing or is not what it should be.
         """
         try:
-            return cls(PoseModel.from_dict(plain["model"]), ScatterOptions(**plain["options"]))
+            return cls(PoseModel.from_dict(plain["model"]), ScatterOptions.from_dict(plain["options"]))
         except (KeyError, TypeError) as error:
             raise InputError(f"the stored scatter lacks or garbles {error}; record the operation again") from error

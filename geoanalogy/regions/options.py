@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass
 
-from ..arguments import is_flag, is_whole, real, shown
-from ..errors import InputError
+from ..arguments import count, flag, number, word
+from ..options import Options, option
 
 
 @dataclass(frozen=True)
-class RegionOptions:
+class RegionOptions(Options):
     """What a user may set. Lengths are shares of the query's extent, so that no option depends on units.
 
     Attributes
@@ -46,46 +46,17 @@ class RegionOptions:
         Matches that are returned at most.
     """
 
-    threshold: float = 0.4
-    contrast: float = 0.5
-    query_kind: str = "auto"
-    query_points: int = 50
-    reach: float = 0.1
-    mirrored: bool = True
-    largest_scale: float = 12.0
-    smoothing_radius: float = 0.15
-    neighbourhood: float = 1.5
-    joint_tolerance: float = 0.0
-    branches: bool = False
-    most: int = 200
+    subject = "regions"
 
-    def __post_init__(self) -> None:
-        for name, low, high in _RANGES:
-            value, counts = getattr(self, name), name in _COUNTS
-            if not low <= real(value) <= high or (counts and not is_whole(value)):
-                number = "whole number" if counts else "number"
-                raise InputError(f"The option {name} is {shown(value)}: give a {number} from {low:g} to {high:g}.")
-            object.__setattr__(self, name, int(value) if counts else float(value))
-        for name in ("mirrored", "branches"):
-            if not is_flag(value := getattr(self, name)):
-                raise InputError(f"The option {name} is {shown(value)}: give True or False.")
-            object.__setattr__(self, name, bool(value))
-        if not isinstance(self.query_kind, str) or self.query_kind not in ("auto", "region", "stroke"):
-            kind = shown(self.query_kind)
-            raise InputError(f'The option query_kind is {kind}: give "auto", "region" or "stroke".')
-
-
-#: Options that count something.
-_COUNTS = ("query_points", "most")
-
-_RANGES = (
-    ("threshold", 0.0, 1.0),
-    ("contrast", 0.0, 1.0),
-    ("query_points", 8, 400),
-    ("reach", 0.001, 1.0),
-    ("largest_scale", 1.0, 100.0),
-    ("smoothing_radius", 0.01, 1.0),
-    ("neighbourhood", 0.5, 10.0),
-    ("joint_tolerance", 0.0, 1.0),
-    ("most", 1, 10_000),
-)
+    threshold: float = option(0.4, number, 0, 1)
+    contrast: float = option(0.5, number, 0, 1)
+    query_kind: str = option("auto", word, "auto", "region", "stroke")
+    query_points: int = option(50, count, 8, 400)
+    reach: float = option(0.1, number, 0.001, 1)
+    mirrored: bool = option(True, flag)
+    largest_scale: float = option(12.0, number, 1, 100)
+    smoothing_radius: float = option(0.15, number, 0.01, 1)
+    neighbourhood: float = option(1.5, number, 0.5, 10)
+    joint_tolerance: float = option(0.0, number, 0, 1)
+    branches: bool = option(False, flag)
+    most: int = option(200, count, 1, 10_000)

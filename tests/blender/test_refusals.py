@@ -218,7 +218,7 @@ CASES = [
     (two_ends, ARRAY, "several objects mark the array's end"),
     (end_is_no_empty, ARRAY, "object 'Stop' is to mark the array's end, but is no empty"),
     (outside, ARRAY, "object 'Bed': the example at x 50"),
-    (bed_in_rooms := lambda: (rooms(), bed()), lambda: ARRAY(spacing=0.0), "the spacing of the array is 0"),
+    (bed_in_rooms := lambda: (rooms(), bed()), lambda: ARRAY(spacing=0.0), "the spacing of the array is 0.0"),
     (
         bed_in_rooms,
         lambda: PROPAGATE(clearance="door"),

@@ -7,8 +7,10 @@ import pytest
 from shapes import rectangle
 
 import geoanalogy as ga
-from geoanalogy.arguments import is_whole, real, shown
+from geoanalogy.arguments import count, flag, is_whole, number, positive, real, shown, word
+from geoanalogy.options import Options
 from geoanalogy.poses.arrays import ArrayOptions
+from geoanalogy.poses.local_mapping import TransferOptions
 from geoanalogy.poses.scatter import ScatterOptions
 
 NAN, INF = float("nan"), float("inf")
@@ -126,39 +128,60 @@ CALLS = {
     "write_scene path": (lambda v: ga.write_scene(SCENE, v), NOT_PATHS),
 }
 
-#: Options by what their values are.
+#: What no option takes, by what its values are.
 WRONG = {bool: NOT_FLAGS, int: NOT_COUNTS, float: (*NOT_NUMBERS, -1.0), str: (None, 5, "x", [], {}, np.zeros(2))}
-for KIND in (ga.PoseOptions, ga.PlacementOptions, ga.RegionOptions, ArrayOptions):
-    CALLS |= {
-        f"{KIND.__name__} {f.name}": (lambda v, kind=KIND, name=f.name: kind(**{name: v}), WRONG[type(f.default)])
-        for f in fields(KIND)
-        if type(f.default) in WRONG
-    }
-CALLS |= {
-    f"PoseOptions {name}": (lambda v, name=name: ga.PoseOptions(**{name: v}), values)
-    for name, values in {
-        "relations": (None, *NOT_LISTS, [], [None]),
-        "mirror": NOT_FLAGS,
-        "spacing": (*NOT_NUMBERS[1:], -1.0, INF),
-        "relation_weights": (*NOT_MAPPINGS, {"bed": "x"}, {"bed": -1}, {"bed": NAN}),
-        "clearance": (*NOT_MAPPINGS, {"door": "x"}, {"door": -1}, {"door": INF}),
-        "max_per": (*NOT_MAPPINGS, {"room": "x"}, {"room": -1}, {"room": 0.5}),
-        "alternative_geometry": (*NOT_MAPPINGS, {"door": "x"}, {"door": [(0, 0), (1, 1)]}, {"door": [(NAN, 0)] * 3}),
-    }.items()
+
+#: Every class of options, with what it needs besides.
+OPTIONS: dict[type[Options], dict] = {
+    ga.PoseOptions: {},
+    ga.PlacementOptions: {},
+    ga.RegionOptions: {},
+    ArrayOptions: {},
+    ScatterOptions: {"count": 3},
+    TransferOptions: {},
+}
+
+#: Options whose defaults do not tell what they take, or that take less than others of their type.
+OWN = {
+    "PoseOptions relations": (None, *NOT_LISTS, [], [None]),
+    "PoseOptions mirror": NOT_FLAGS,
+    "PoseOptions spacing": (*NOT_NUMBERS[1:], -1.0, INF),
+    "PoseOptions relation_weights": (*NOT_MAPPINGS, {"bed": "x"}, {"bed": -1}, {"bed": NAN}),
+    "PoseOptions clearance": (*NOT_MAPPINGS, {"door": "x"}, {"door": -1}, {"door": INF}),
+    "PoseOptions max_per": (*NOT_MAPPINGS, {"room": "x"}, {"room": -1}, {"room": 0.5}),
+    "PoseOptions alternative_geometry": (
+        *NOT_MAPPINGS,
+        {"door": "x"},
+        {"door": [(0, 0), (1, 1)]},
+        {"door": [(NAN, 0)] * 3},
+    ),
+    "PlacementOptions tau": (*NOT_NUMBERS, 0, -1, 1001),
+    "ScatterOptions count": (*NOT_COUNTS, -1),
+    "ScatterOptions spacing": (*NOT_NUMBERS[1:], -1, INF),
+    "ScatterOptions width": (*NOT_NUMBERS, 0, -1, INF),
+    "ScatterOptions sharpness": (*NOT_NUMBERS, -1, INF),
+    "TransferOptions corner": (*NOT_COUNTS[1:], -1),
+    "TransferOptions start": (*NOT_POINTS, [], (1, 2, 3), [(1, 2), (3, 4)]),
+    "TransferOptions starts": (*NOT_MAPPINGS, {"bed": 5}, {"bed": [(1, 2), (3, 4)]}, {"bed": (NAN, 0)}),
 }
 
 
-CALLS |= {
-    f"ScatterOptions {name}": (lambda v, name=name: ScatterOptions(**{"count": 3, name: v}), values)
-    for name, values in {
-        "count": (*NOT_COUNTS, -1),
-        "spacing": (*NOT_NUMBERS[1:], -1, INF),
-        "width": (*NOT_NUMBERS, 0, -1, INF),
-        "sharpness": (*NOT_NUMBERS, -1, INF),
-        "directions": WRONG[str],
-    }.items()
-}
+def taking(kind, name, needed):
+    """A call that gives one option of a class."""
+    return lambda value: kind(**{**needed, name: value})
+
+
+for KIND, NEEDED in OPTIONS.items():
+    for FIELD in fields(KIND):
+        NAME = f"{KIND.__name__} {FIELD.name}"
+        if NAME != "ScatterOptions density":
+            CALLS[NAME] = (taking(KIND, FIELD.name, NEEDED), OWN.get(NAME) or WRONG[type(FIELD.default)])
+    CALLS[f"{KIND.__name__}.from_dict"] = (KIND.from_dict, (*NOT_MAPPINGS, {"no option": 1}))
 CALLS["ScatterOptions density"] = (lambda v: ScatterOptions(density=v), (*NOT_NUMBERS, -0.1, INF))
+
+
+def test_no_class_of_options_is_forgotten():
+    assert set(Options.__subclasses__()) == set(OPTIONS)
 
 
 @pytest.mark.parametrize("call", CALLS)
@@ -202,3 +225,38 @@ def test_numbers_are_told_from_what_is_none():
     assert np.isnan([real(v) for v in ("1", None, [1], 1j)]).all()
     assert (real(10**400), real(-(10**400))) == (INF, -INF)
     assert [is_whole(v) for v in (1, 2.0, np.int8(3), 2.5, INF, NAN, "1")] == [True, True, True, *[False] * 4]
+
+
+@pytest.mark.parametrize(
+    ("read", "value", "limits", "sentence"),
+    [
+        (number, 2, (0, 1), "the share is 2; give a number from 0 to 1"),
+        (number, INF, (0,), "the share is inf; give a finite number from 0 on"),
+        (positive, 0.0, (), "the share is 0.0; give a finite positive number"),
+        (positive, 11, (10,), "the share is 11; give a positive number up to 10"),
+        (positive, 0, (INF,), "the share is 0; give a positive number"),
+        (count, 2.5, (1,), "the share is 2.5; give a whole number from 1 on"),
+        (count, 9, (1, 8), "the share is 9; give a whole number from 1 to 8"),
+        (flag, "no", (), "the share is 'no'; give True or False"),
+        (word, "some", ("all", "none"), "the share is 'some'; choose from all, none"),
+    ],
+)
+def test_what_cannot_be_used_is_named_with_what_is_wanted(read, value, limits, sentence):
+    with pytest.raises(ga.InputError) as caught:
+        read(value, "the share", *limits)
+    assert str(caught.value) == sentence
+
+
+def test_what_is_at_a_limit_is_taken():
+    assert [number(v, "n", 0, 1) for v in (0, np.float32(1))] == [0.0, 1.0]
+    assert positive(INF, "n", INF) == INF and positive(10, "n", 10) == 10.0
+    assert [count(v, "n", 1, 8) for v in (1, 8.0, np.int64(3))] == [1, 8, 3]
+    assert (flag(np.bool_(True), "n"), flag(0, "n"), word("all", "n", "all")) == (True, False, "all")
+
+
+@pytest.mark.parametrize("kind", OPTIONS)
+def test_options_are_stored_as_what_differs_from_the_defaults(kind):
+    options = kind(**OPTIONS[kind])
+    assert kind.from_dict(options.to_dict()) == options
+    if kind is not ga.PlacementOptions:
+        assert options.to_dict() == OPTIONS[kind]

@@ -414,7 +414,7 @@ def test_a_stored_group_is_the_same_group(options):
 
 @pytest.mark.parametrize("name", ["system", "distance", "shape"])
 def test_an_unknown_option_is_refused(name):
-    with pytest.raises(InputError, match=f"the transfer option {name} is 'mean value'; choose from"):
+    with pytest.raises(InputError, match=f"the option {name} is 'mean value'; choose from"):
         TransferOptions(**{name: "mean value"})
 
 

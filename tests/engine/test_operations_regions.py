@@ -109,8 +109,8 @@ def test_a_query_that_cannot_be_used_is_refused(query, message):
         ("query", [[0.0, 0.0]], "setting 'query': a line has fewer than two points"),
         ("query", [[0.0, "x"], [1.0, 2.0]], "setting 'query': 'x' is no finite number"),
         ("lines", 3, "has a damaged setting 'lines'; record it again"),
-        ("options", {"colour": 1}, "there is no option 'colour'; it may come from a newer version"),
-        ("options", {"threshold": 7.0}, "The option threshold is 7.0"),
+        ("options", {"colour": 1}, "colour is no option of regions; it may come from a newer version"),
+        ("options", {"threshold": 7.0}, "the option threshold is 7.0; give a number from 0 to 1"),
     ],
 )
 def test_a_damaged_setting_is_named(name, value, message):

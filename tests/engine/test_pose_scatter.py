@@ -150,11 +150,11 @@ def test_a_stored_scatter_draws_the_same(model):
     [
         ({}, "either a count per parent or a density"),
         ({"count": 3, "density": 1.0}, "either a count per parent or a density"),
-        ({"count": -1}, "the scatter option count is -1; give a number that is not negative"),
-        ({"density": math.nan}, "the scatter option density is nan"),
-        ({"count": 1, "spacing": -1.0}, "the scatter option spacing is -1.0"),
-        ({"count": 1, "width": 0.0}, "the scatter option width is 0.0; give a positive number"),
-        ({"count": 1, "directions": "north"}, "the scatter option directions is 'north'; choose from best, random"),
+        ({"count": -1}, "the option count is -1; give a whole number from 0 on"),
+        ({"density": math.nan}, "the option density is nan; give a finite number from 0 on"),
+        ({"count": 1, "spacing": -1.0}, "the option spacing is -1.0; give a finite number from 0 on"),
+        ({"count": 1, "width": 0.0}, "the option width is 0.0; give a finite positive number"),
+        ({"count": 1, "directions": "north"}, "the option directions is 'north'; choose from best, random"),
     ],
 )
 def test_options_that_make_no_sense_are_refused(options, message):

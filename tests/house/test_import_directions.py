@@ -19,7 +19,7 @@ BLENDER = {
 NUMERICAL = {"numpy", "scipy", "shapely", "manifold3d"}
 OURS = {"geoanalogy", "operators", "panels", "bl_ext"}
 
-BASE = {"errors", "arguments", "tolerances", "progress"}
+BASE = {"errors", "arguments", "options", "tolerances", "progress"}
 ENGINES = {"poses", "placements", "regions"}
 
 # Each package of the engine, and the packages of the engine that it may import besides itself.
@@ -27,6 +27,7 @@ MAY_IMPORT = {
     "errors": set(),
     "tolerances": set(),
     "arguments": {"errors"},
+    "options": {"errors", "arguments"},
     "progress": {"errors", "arguments"},
     "geometry": BASE,
     "relations": BASE | {"geometry"},
@@ -95,6 +96,7 @@ def test_the_table_points_one_way():
     order = [
         "errors",
         "arguments",
+        "options",
         "progress",
         "tolerances",
         "geometry",
