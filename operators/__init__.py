@@ -33,6 +33,7 @@ MODULES = (
     ".carry_over",
     ".show_transformations",
     ".accept",
+    ".next_place",
     ".reject",
     ".reject_below",
     ".forget_decisions",

@@ -6,7 +6,7 @@ import bpy
 
 from ..geoanalogy.blender import names
 from ..geoanalogy.blender.tree.node_settings import stored_settings
-from ..geoanalogy.blender.tree.store import is_building
+from ..geoanalogy.blender.tree.store import is_building, is_propagation
 
 
 class SidebarPanel:
@@ -66,6 +66,10 @@ def sifting(layout: bpy.types.UILayout, node: bpy.types.Node, done: str) -> None
         row.operator("geoanalogy.accept", icon="CHECKMARK")
         row.operator("geoanalogy.reject", icon="X")
         row.operator("geoanalogy.forget_decisions", text="", icon="LOOP_BACK")
+    if is_propagation(node):
+        row = layout.row(align=True)
+        row.operator("geoanalogy.next_place", text="", icon="TRIA_LEFT").step = -1
+        row.operator("geoanalogy.next_place", icon="TRIA_RIGHT").step = 1
     problem = node.get(names.PROBLEM)
     if problem:
         paragraph(layout, problem, "ERROR")

@@ -8,7 +8,7 @@ GROUPS = (
     ("propagate", "array", "scatter", "transfer", "choose"),
     ("draw_rectangles", "place"),
     ("extrude", "combine", "select_elements"),
-    ("accept", "reject", "reject_below", "forget_decisions", "explain", "list_unfamiliar"),
+    ("accept", "next_place", "reject", "reject_below", "forget_decisions", "explain", "list_unfamiliar"),
     ("replay", "apply", "clear", "make_real", "own_tree", "import_tree", "export_tree"),
     ("import_drawing", "draw_query", "use_as_query", "find_regions", "lay_image", "carry_over", "show_transformations"),
 )

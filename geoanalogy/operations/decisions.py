@@ -187,6 +187,26 @@ class Decisions:
         pinned = {k: pin for k, pin in self.pinned.items() if k != key}
         return Decisions(_without(self.accepted, key), _without(self.rejected, key), pinned)
 
+    def following(self, present: Sequence[str]) -> "Decisions":
+        """The same about results by the keys that they have now, which say where a result stands.
+
+        Parameters
+        ----------
+        present : sequence of str
+            Keys of all that the operation proposes.
+
+        Returns
+        -------
+        Decisions
+            What nothing is near to keeps its key.
+        """
+        found = find([*self.rejected, *self.accepted, *self.pinned], present)
+        return Decisions(
+            tuple(found.get(key, key) for key in self.accepted),
+            tuple(found.get(key, key) for key in self.rejected),
+            {found.get(key, key): pin for key, pin in self.pinned.items()},
+        )
+
     def apply(
         self, proposed: Sequence[Element], chosen: Sequence[Element], template: Element | None, scene: Scene
     ) -> list[Element]:

@@ -103,14 +103,26 @@ def sift(
         others = standing.setdefault(e.parent, [])
         most = max_per.get(layout.scene.polygon(e.parent).label)
         full = most is not None and len(others) >= most
-        if e.importance >= threshold and not full and not any(_too_near(e, other, spacing) for other in others):
+        if e.importance >= threshold and not full and not any(too_near(e, other, spacing) for other in others):
             others.append(e)
             kept.append(e)
     return kept
 
 
-def _too_near(one: Element, other: Element, spacing: float | None) -> bool:
-    """Whether two elements are nearer than a distance, or intersect."""
+def too_near(one: Element, other: Element, spacing: float | None) -> bool:
+    """Whether two elements are nearer than a distance, or intersect.
+
+    Parameters
+    ----------
+    one, other : Element
+        On one surface.
+    spacing : float or None
+        Scene units; None: only whether they intersect.
+
+    Returns
+    -------
+    bool
+    """
     gap = math.dist(one.pose.position, other.pose.position)
     if spacing is not None and gap < spacing:
         return True

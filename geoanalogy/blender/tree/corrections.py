@@ -10,6 +10,8 @@ from ...errors import InputError
 from ...operations.decisions import Decisions, Pin
 from ...operations.element import Element
 from ...operations.node import Node
+from ...operations.other_places import other_places, taken_on
+from ...operations.pose_placement import PosePlacement
 from ...poses.pose import Pose
 from ...tolerances import CONTAINED_SHARE
 from .. import names
@@ -17,7 +19,7 @@ from ..reading.footprints import pose_of
 from ..reading.planes import Plane
 from ..regions.results import hidden_targets
 from .evaluating import mark_stale
-from .refresh import proposed_by
+from .refresh import decided, proposed_by
 from .showing import show_again
 from .sites import site_under, sites_before
 from .store import (
@@ -70,6 +72,25 @@ def decide(context: bpy.types.Context, items: Iterable[bpy.types.Object], verdic
     InputError
         Where there are none, their operation is gone, or one to be kept lies outside every polygon.
     """
+    changed, keys = [], {}
+    for node, group in _by_node(context, items):
+        engine = engine_node(node)
+        keys[node.name] = _keys(group)
+        decisions = engine.operation.decisions.following([e.key for e in proposed_by(node)])
+        # What is carried over to a region stands where that is found.
+        pins = _pins(context, node, group) if verdict == "accept" and not works_on_drawings(node) else {}
+        for key in keys[node.name]:
+            decisions = decisions.pin(key, pins[key]) if key in pins else getattr(decisions, verdict)(key)
+        changed.append((node, engine, decisions))
+    for node, engine, decisions in changed:
+        _write_decisions(context, node, engine, decisions)
+    return sum(map(len, keys.values()))
+
+
+def _by_node(
+    context: bpy.types.Context, items: Iterable[bpy.types.Object]
+) -> list[tuple[bpy.types.Node, list[bpy.types.Object]]]:
+    """Results by the operation that placed them, which can be corrected."""
     tree = require_operations(context.scene)
     by_node: dict[str, list[bpy.types.Object]] = {}
     for item in items:
@@ -81,28 +102,69 @@ def decide(context: bpy.types.Context, items: Iterable[bpy.types.Object], verdic
         raise InputError("the masses are merged into one mesh per label; show them singly in step 5 to correct one")
     if missing:
         raise InputError(f"the operation {missing[0]!r} is no longer there; replay, and its results will go")
-    changed, keys = [], {name: _keys(group) for name, group in by_node.items()}
     for name, group in by_node.items():
-        node = tree.nodes[name]
-        engine = engine_node(node)
-        if is_building(node):
+        if is_building(tree.nodes[name]):
             raise InputError(
                 f"object {group[0].name!r} was made of the plan itself by {name!r}, not placed; correct the plan"
             )
-        decisions = engine.operation.decisions
-        # What is carried over to a region stands where that is found.
-        pins = _pins(context, node, group) if verdict == "accept" and not works_on_drawings(node) else {}
-        for key in keys[name]:
-            decisions = decisions.pin(key, pins[key]) if key in pins else getattr(decisions, verdict)(key)
-        changed.append((node, engine, decisions))
-    for node, engine, decisions in changed:
-        _write_decisions(context, node, engine, decisions)
-    return sum(map(len, keys.values()))
+    return [(tree.nodes[name], group) for name, group in by_node.items()]
 
 
 def _keys(items: Iterable[bpy.types.Object]) -> list[str]:
     """The keys of results, each once: several objects may be one result."""
     return list(dict.fromkeys(item[names.KEY] for item in items))
+
+
+def take_on(context: bpy.types.Context, items: Iterable[bpy.types.Object], step: int) -> tuple[int, int]:
+    """Take results to another of the places of their polygons, where they stay.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    items : iterable of bpy.types.Object
+        Results.
+    step : int
+        How many places further; negative: back.
+
+    Returns
+    -------
+    taken, left : int
+        How many went, and how many have no other place.
+
+    Raises
+    ------
+    InputError
+        Where there are none, or they were not placed by a single example.
+    """
+    changed, taken, left = [], 0, 0
+    for node, group in _by_node(context, items):
+        engine = engine_node(node)
+        operation = engine.operation
+        if not isinstance(operation, PosePlacement):
+            raise InputError(
+                f"object {group[0].name!r} was not placed by Propagate, which alone knows other places; move it by "
+                "hand, and press Accept"
+            )
+        sites = sites_before(context, node)
+        proposed = proposed_by(node)
+        by_key = {e.key: e for e in proposed}
+        decisions = operation.decisions.following(list(by_key))
+        for key in _keys(group):
+            own = by_key.get(key)
+            at = None if own is None else site_under(sites, own)
+            if at is None:
+                left += 1
+                continue
+            operation = replace(operation, decisions=decisions)
+            standing = decided(replace(engine, operation=operation), proposed, at.layout).elements
+            places = other_places(own, proposed, standing, decisions.rejected, operation.spacing)
+            further = taken_on(decisions, own, places, at.scene.polygon(own.parent), step)
+            decisions = further or decisions
+            taken, left = taken + (further is not None), left + (further is None)
+        changed.append((node, engine, decisions))
+    for node, engine, decisions in changed:
+        _write_decisions(context, node, engine, decisions)
+    return taken, left
 
 
 def reject_below(context: bpy.types.Context, node: bpy.types.Node) -> int:

@@ -20,6 +20,7 @@ from ...operations.evaluation import Evaluations
 from ...operations.extrusion import Extrusion
 from ...operations.node import Link, Node
 from ...operations.operation import Operation
+from ...operations.pose_placement import PosePlacement
 from ...operations.rectangle_placement import RectanglePlacement
 from ...operations.region_transfer import RegionTransfer
 from ...operations.selection import Selection
@@ -265,6 +266,20 @@ def is_placement(node: bpy.types.Node) -> bool:
     bool
     """
     return node[names.OPERATION].get("type") == RectanglePlacement.type
+
+
+def is_propagation(node: bpy.types.Node) -> bool:
+    """Whether a node places by one example.
+
+    Parameters
+    ----------
+    node : bpy.types.Node
+
+    Returns
+    -------
+    bool
+    """
+    return node[names.OPERATION].get("type") == PosePlacement.type
 
 
 def is_building(node: bpy.types.Node) -> bool:
