@@ -91,8 +91,8 @@ class Arrangement:
     def drawn(self) -> dict[str, Array]:
         """Boxes (n, 4) of the members in the frame, by label."""
         of = defaultdict(list)
-        for polygon in self.members:
-            of[polygon.label].append(self.box_of(polygon))
+        for polygon, box, _ in self._laid:
+            of[polygon.label].append(box)
         return {label: np.array(of[label]) for label in sorted(of)}
 
     @cached_property
@@ -108,24 +108,37 @@ class Arrangement:
         corners say nothing that its box coordinates do not.
         """
         of: dict[str, list[Polygon]] = defaultdict(list)
-        for polygon, whole in zip(self.members, self._rectangular, strict=True):
+        for polygon, _, whole in self._laid:
             if not whole:
                 of[polygon.label].append(polygon)
         groups = {PARENT: Elements.of([self.parent], self.frame)}
         return groups | {f"{OUTLINE}{label}": Elements.of(of[label], self.frame) for label in sorted(of)}
 
     @cached_property
-    def _rectangular(self) -> list[bool]:
-        return [self._fills_box(p) for p in self.members]
+    def _laid(self) -> list[tuple[Polygon, Array, bool]]:
+        """The members with their boxes, and whether these are rectangles, by where they are.
 
-    def _fills_box(self, polygon: Polygon) -> bool:
-        x0, y0, x1, y1 = self.box_of(polygon)
-        return polygon.area >= PARALLEL_SHARE * (x1 - x0) * (y1 - y0)
+        Of elements that are equally near the first one counts; which one that is must not depend on the order in which
+        they were drawn.
+        """
+        low, size = self.parent_box[:2], (self.parent_box[2:] - self.parent_box[:2]).max()
+
+        def place(points: Array) -> list[float]:
+            return np.round((points - low) / size, PLACE_DIGITS).ravel().tolist()  # type: ignore[no-any-return]
+
+        laid = []
+        for polygon in self.members:
+            box = self.box_of(polygon)
+            whole = _fills(polygon, box)
+            ring = [] if whole else sorted(place(point) for point in self.turned(polygon.points))
+            laid.append((place(box.reshape(2, 2)), ring, polygon, box, whole))
+        laid.sort(key=lambda one: one[:2])
+        return [one[2:] for one in laid]
 
     @cached_property
     def parent_fills_box(self) -> bool:
         """Whether the parent is a rectangle in the frame."""
-        return self._fills_box(self.parent)
+        return _fills(self.parent, self.parent_box)
 
     def share_outside(self, boxes: Array) -> Array:
         """Share of each box's area that lies outside the parent.
@@ -168,6 +181,13 @@ class Arrangement:
         return digest.hexdigest()[:32]
 
 
+def _fills(polygon: Polygon, box: Array) -> bool:
+    """Whether a polygon is the rectangle that its box is."""
+    return polygon.area >= PARALLEL_SHARE * float((box[2:] - box[:2]).prod())
+
+
+#: Digits of places, in the parent's size, that are no rounding errors.
+PLACE_DIGITS = 9
 #: Name of the group of the parent's own segments, corners and boundary.
 PARENT = "parent"
 #: Prefix of the groups of the outlines of members that are no rectangles.

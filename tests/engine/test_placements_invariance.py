@@ -130,3 +130,23 @@ def test_the_order_of_elements_and_of_examples_changes_nothing(drawing, random):
     random.shuffle(order)
     random.shuffle(shown_order)
     assert_same(placed(drawing, Similarity()), placed(drawing, Similarity(), order, shown_order))
+
+
+def test_the_order_of_elements_that_are_equally_near_changes_nothing():
+    rng = np.random.default_rng(5)
+    windows = [
+        ring(3 + 5 * i - w, 1 + 4 * j, 3 + 5 * i + w, 2.5 + 4 * j + 0.3 * ((i + j) % 2))
+        for i in range(5)
+        for j in range(3)
+        for w in [0.5 + 0.1 * (j % 2)]
+    ]
+    # Lamps midway between two windows, one of which is the taller one.
+    lamps = [ga.Rectangle(x, y, 0.4, 0.6) for x, y in ((5.5, 2.3), (10.5, 6.3), (15.5, 2.3))]
+    answers = []
+    for _ in range(4):
+        windows = [windows[i] for i in rng.permutation(len(windows))]
+        scene = ga.Scene([ga.Polygon(ring(0, 0, 30, 12), "facade"), *(ga.Polygon(w, "window") for w in windows)])
+        found = ga.learn_placement([ga.Example(scene, lamp) for lamp in lamps]).place(scene, threshold=0)
+        answers.append([(p.rectangle, p.score) for p in found])
+    assert len(answers[0]) > 100
+    assert answers[0] == answers[1] == answers[2] == answers[3]
