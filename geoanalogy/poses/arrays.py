@@ -7,6 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.spatial import cKDTree
 
 from ..arguments import flag, number, positive, word
 from ..errors import InputError
@@ -141,19 +142,20 @@ class ArrayModel:
         end = self.end or self.start
         to = align(end.pose.position, arrangement_of(end.source, end.parent).elements.polygons)
         if to.polygon.id != at.polygon.id:
+            other = "another one" if to.polygon.label == at.polygon.label else _named(to.polygon)
             raise InputError(
-                f"the array's start is nearest to polygon {at.polygon.id!r} and its end to {to.polygon.id!r}; move "
-                "them so that both are nearest to the same one"
+                f"the array's start is nearest to {_named(at.polygon)} and its end to {other}; move them so that both "
+                "are nearest to the same one"
             )
         if to.inside != at.inside:
             raise InputError(
-                f"the array's start and end are on different sides of the boundary of polygon {at.polygon.id!r}; move "
-                "them to the same side"
+                f"the array's start and end are on different sides of the boundary of {_named(at.polygon)}; move them "
+                "to the same side"
             )
         stretch = self._stretch(self._paths(at), self.start.pose, end.pose)
         if stretch is None:
             raise InputError(
-                f"no path along the boundary of polygon {at.polygon.id!r} joins the array's start and end; move them"
+                f"no path along the boundary of {_named(at.polygon)} joins the array's start and end; move them"
             )
         return stretch
 
@@ -245,8 +247,9 @@ class ArrayModel:
         # Of equal ones, those that are not mirrored.
         for array in sorted(arrays, key=lambda a: (not a.example, -round(a.importance, 6), a.poses[0].mirrored)):
             here = np.array([p.position for p in array.poses])
-            there = [p.position for k in kept if k.polygon.id == array.polygon.id for p in k.poses]
-            gaps = np.hypot(*(here[:, None] - np.array(there).reshape(-1, 2)).transpose(2, 0, 1))
+            there = np.array([p.position for k in kept if k.polygon.id == array.polygon.id for p in k.poses])
+            # Both may be ten thousand: no table of all pairs.
+            gaps = cKDTree(there.reshape(-1, 2)).query(here)[0]
             if not (gaps < self.spacing * array.scale / 2).any():
                 kept.append(array)
         return kept
@@ -368,6 +371,11 @@ class ArrayModel:
             return cls(start, end, float(plain["spacing"]), ArrayOptions.from_dict(plain["options"]))
         except (KeyError, TypeError) as error:
             raise InputError(f"the stored array model lacks or garbles {error}; record the operation again") from error
+
+
+def _named(polygon: Polygon) -> str:
+    """A polygon as who made the array knows it: what operations have placed has an id that nobody has given it."""
+    return f"a polygon labelled {polygon.label!r}" if polygon.label else "a polygon without a label"
 
 
 def _agree(origin: Alignment, goal: Alignment | None) -> bool:

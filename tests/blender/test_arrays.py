@@ -3,6 +3,7 @@
 import bpy
 import pytest
 from flats import activate, box, link, operations_tree, results, rooms
+from mathutils import Matrix
 
 EXEC = "EXEC_DEFAULT"
 
@@ -53,6 +54,15 @@ def test_arrays_to_different_ends_are_different_operations(lamp, end):
     activate(lamp, other)
     array(validate=False)
     assert len(operations_tree().nodes) == 2
+
+
+def test_the_names_of_more_than_a_thousand_are_in_their_order(lamp):
+    # Blender would go back over all that come later for each name that is out of order.
+    lamp.data.transform(Matrix.Scale(0.01, 4))
+    activate(lamp)
+    assert len(array(spacing=0.01)) > 1000
+    made = [item.name for item in results()]
+    assert made == sorted(made) == [f"lamp {i:04d}" for i in range(1, len(made) + 1)]
 
 
 def test_two_empties_are_no_array(end):

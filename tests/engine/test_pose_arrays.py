@@ -343,8 +343,8 @@ def test_a_stored_model_gives_the_same_arrays(end):
     [
         ((3, 1), (17, 1), 0.0, "the spacing of the array is 0.0; give a finite positive number"),
         ((3, 1), (17, 1), math.nan, "the spacing of the array is nan; give a finite positive number"),
-        ((3, 1), (13, 10), 1.0, "nearest to polygon 'garden 1' and its end to 'fountain 1'"),
-        ((12.5, 10), (9, 10), 1.0, "on different sides of the boundary of polygon 'fountain 1'"),
+        ((3, 1), (13, 10), 1.0, "nearest to a polygon labelled 'garden' and its end to a polygon labelled 'fountain'"),
+        ((12.5, 10), (9, 10), 1.0, "on different sides of the boundary of a polygon labelled 'fountain'"),
     ],
 )
 def test_an_example_that_is_no_array_is_refused(start, end, spacing, message):
@@ -358,8 +358,21 @@ def test_an_example_whose_ends_no_path_joins_is_refused():
         (0, 0), (8, 0), (8, 3), (12, 3), (12, 0), (20, 0), (20, 8), (12, 8), (12, 4), (8, 4), (8, 8), (0, 8)
     )
     scene = Scene([Polygon(dumb_bell, label="hall", id="hall")])
-    with pytest.raises(InputError, match="no path along the boundary of polygon 'hall' joins"):
+    with pytest.raises(InputError, match="no path along the boundary of a polygon labelled 'hall' joins"):
         learn_array(scene, Pose((3, 1)), Pose((17, 1)), 1.0)
+
+
+def test_a_start_and_an_end_at_two_of_a_kind_are_refused_by_their_label():
+    beds = [Polygon(ring((x, 2), (x + 2, 2), (x + 2, 4), (x, 4)), label="bed", id=f"bed/hall@{x},0") for x in (2, 12)]
+    scene = Scene([Polygon(ring((0, 0), (20, 0), (20, 8), (0, 8)), label="hall", id="hall"), *beds])
+    with pytest.raises(InputError, match="nearest to a polygon labelled 'bed' and its end to another one; move them"):
+        learn_array(scene, Pose((3, 1.9)), Pose((13, 1.9)), 1.0)
+
+
+def test_starts_and_ends_at_what_has_no_label_are_refused_too():
+    scene = Scene([*garden(1), Polygon(regular(64, 2.0, (10, 10)))])
+    with pytest.raises(InputError, match="different sides of the boundary of a polygon without a label"):
+        learn_array(scene, Pose((12.5, 10)), Pose((9, 10)), 1.0)
 
 
 def test_a_mistyped_spacing_is_refused():

@@ -21,6 +21,7 @@ from ..reading.planes import Plane
 from ..tree.store import Placed
 from .bending import Bender
 from .local_view import show_locally
+from .numbering import name_result
 from .selection import Selection
 
 Array = NDArray[np.float64]
@@ -129,7 +130,7 @@ def write_results(
     for count, (e, plane) in enumerate(shown[left:], left + 1):
         one = by_mesh[e.mesh]
         made = own_copy(one.item)
-        made.name = f"{node} {count:03d}"
+        name_result(made, node, count, len(shown))
         made[names.NODE], made[names.KEY] = node, e.key
         if names.DRAWN not in made:
             # An example, or a library object that stands aside, may be hidden by itself; its results are not.

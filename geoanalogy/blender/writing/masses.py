@@ -19,6 +19,7 @@ from ..reading.ground import results_collection
 from ..reading.planes import Plane
 from .buildings import mesh_data
 from .instances import ensure_results_collection
+from .numbering import name_result
 
 Array = NDArray[np.float64]
 
@@ -60,7 +61,10 @@ def write_masses(
         holder = ensure_holder_with(outer, names.MASS, label)
         made = [_merged(label, standing)] if merged else [_single(e, plane, shared) for e, plane in standing]
         for i, item in enumerate(made, 1):
-            item.name = label if merged else f"{label} {i:03d}"
+            if merged:
+                item.name = label
+            else:
+                name_result(item, label, i, len(made))
             item[names.LABEL] = label
             holder.objects.link(item)
         count += len(made)
