@@ -4,6 +4,8 @@ from collections.abc import Generator
 from pathlib import Path
 
 import bpy
+from bpy.props import StringProperty
+from bpy_extras.io_utils import ImportHelper
 
 from ..geoanalogy.blender.jobs import Job, at_work
 from ..geoanalogy.blender.tree.store import recorded_nodes, tree_of
@@ -45,6 +47,20 @@ class AsksForLabel:
         row.prop(self, "label")
         for name in self.asked:
             self.layout.prop(self, name)
+
+
+class FileImport(Edit, ImportHelper):
+    """An operator that reads a file: one that is dropped onto a view, else one that is chosen in the file browser."""
+
+    # The path of the last time would count as one that has been dropped.
+    filepath: StringProperty(
+        name="File", description="The file to read", subtype="FILE_PATH", options={"HIDDEN", "SKIP_SAVE"}
+    )
+
+    def invoke(self, context, event):
+        if self.properties.is_property_set("filepath"):
+            return self.execute(context)
+        return super().invoke(context, event)
 
 
 class LongEdit:

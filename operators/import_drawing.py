@@ -2,14 +2,13 @@
 
 import bpy
 from bpy.props import FloatProperty, StringProperty
-from bpy_extras.io_utils import ImportHelper
 
 from ..geoanalogy.blender.regions.drawings import add_lines
 from ..geoanalogy.formats.files import read_drawing
-from .edit import Edit, chosen_file, needs_object_mode
+from .edit import FileImport, chosen_file, needs_object_mode
 
 
-class GEOANALOGY_OT_import_drawing(Edit, ImportHelper, bpy.types.Operator):
+class GEOANALOGY_OT_import_drawing(FileImport, bpy.types.Operator):
     """Import the lines of an SVG file into the drawing"""
 
     bl_idname = "geoanalogy.import_drawing"

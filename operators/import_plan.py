@@ -2,14 +2,13 @@
 
 import bpy
 from bpy.props import FloatProperty, StringProperty
-from bpy_extras.io_utils import ImportHelper
 
 from ..geoanalogy.blender.plan_making import add_plan
 from ..geoanalogy.formats.files import read_scene
-from .edit import Edit, chosen_file, needs_object_mode
+from .edit import FileImport, chosen_file, needs_object_mode
 
 
-class GEOANALOGY_OT_import_plan(Edit, ImportHelper, bpy.types.Operator):
+class GEOANALOGY_OT_import_plan(FileImport, bpy.types.Operator):
     """Import labelled outlines from a GeoJSON, SVG or DXF file"""
 
     bl_idname = "geoanalogy.import_plan"

@@ -2,16 +2,15 @@
 
 import bpy
 from bpy.props import BoolProperty, StringProperty
-from bpy_extras.io_utils import ImportHelper
 
 from ..geoanalogy.blender.tree.editing import chosen_outputs
 from ..geoanalogy.blender.tree.evaluating import mark_stale
 from ..geoanalogy.blender.tree.files import graft_tree, import_tree
 from ..geoanalogy.blender.tree.store import ordered_nodes, require_operations
-from .edit import Edit, chosen_file, needs_object_mode
+from .edit import FileImport, chosen_file, needs_object_mode
 
 
-class GEOANALOGY_OT_import_tree(Edit, ImportHelper, bpy.types.Operator):
+class GEOANALOGY_OT_import_tree(FileImport, bpy.types.Operator):
     """Read an operations tree from a JSON file, to apply it here or to let it grow onto the tree that is there"""
 
     bl_idname = "geoanalogy.import_tree"

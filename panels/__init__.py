@@ -14,6 +14,7 @@ MODULES = (
     ".diagnostics",
     ".node_editor",
     ".menu",
+    ".dropped_files",
 )
 
 

@@ -48,6 +48,27 @@ def test_a_circle_is_refused_when_it_is_linked():
     assert "problem" not in tree
 
 
+def test_what_was_refused_is_told_for_a_while():
+    corners, _ = houses()
+    windows(corners)
+    tree = operations_tree()
+    told = bridge("tree.links")
+
+    def refuse():
+        tree.links.new(tree.nodes["subtract window"].outputs[0], tree.nodes["house"].inputs[0])
+        return tree["problem"]
+
+    told.let_go(tree.name, refuse())
+    assert "problem" not in tree
+    told.let_go(tree.name, "another")
+    told.let_go("no tree", "another")
+    refuse()
+    told.let_go(tree.name, "another")
+    assert "problem" in tree
+    tree.nodes["extrude house"].height = 2 * HEIGHT
+    assert "problem" not in tree
+
+
 def test_a_node_that_is_rewired_or_edited_is_marked_and_evaluated_anew():
     houses()
     tree = operations_tree()

@@ -3,12 +3,16 @@
 import json
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 
 import bpy
 
 from .. import names
 from . import node_settings, node_tree
 from .store import operation_nodes, ordered_nodes, sources_by_node
+
+#: How many seconds the tree tells what was refused.
+READING_TIME = 12.0
 
 
 def circle_in(tree: bpy.types.NodeTree) -> list[bpy.types.Node]:
@@ -91,8 +95,7 @@ def check_links(tree: bpy.types.NodeTree) -> None:
         return
     told = refuse_circles(tree)
     if told is not None:
-        tree[names.PROBLEM] = told
-        _tell(told)
+        _tell(tree, told)
     changed: set[str] = set()
     by_node = sources_by_node(tree)
     for node in ordered_nodes(tree):
@@ -115,6 +118,7 @@ def mark_edited(node: bpy.types.Node) -> None:
     ----------
     node : bpy.types.Node
     """
+    node.id_data.pop(names.PROBLEM, None)
     changed, by_node = {node.name}, sources_by_node(node.id_data)
     for other in ordered_nodes(node.id_data):
         if other.name in changed or any(source.name in changed for source, _ in by_node.get(other.name, ())):
@@ -135,8 +139,28 @@ def forget_changes(tree: bpy.types.NodeTree) -> None:
         node[names.SOURCES] = _sources_text(node, by_node.get(node.name, []))
 
 
-def _tell(sentence: str) -> None:
-    """Say a sentence where no operator runs that could report it."""
+def let_go(tree: str, sentence: str) -> None:
+    """Forget what was refused: the tree has been sound ever since, and whoever linked has had the time to read it.
+
+    Parameters
+    ----------
+    tree : str
+        Name of a tree, which may be gone.
+    sentence : str
+        What the tree says of it; another problem stays.
+    """
+    found = bpy.data.node_groups.get(tree)
+    if found is not None and found.get(names.PROBLEM) == sentence:
+        del found[names.PROBLEM]
+        for window in bpy.context.window_manager.windows:
+            for area in window.screen.areas:
+                area.tag_redraw()
+
+
+def _tell(tree: bpy.types.NodeTree, sentence: str) -> None:
+    """Say what was refused for a while, as no operator runs that could report it."""
+    tree[names.PROBLEM] = sentence
+    bpy.app.timers.register(partial(let_go, tree.name, sentence), first_interval=READING_TIME)
     if not bpy.app.background and bpy.context.window is not None:
 
         def draw(self, context):
