@@ -22,6 +22,9 @@ Array = NDArray[np.float64]
 #: furnished rooms, 0.4 placed most fixtures right.
 FOOTPRINT_REACH = 0.4
 
+#: Distance from a boundary, in sizes of its polygon, at which a sample lies on it.
+ON_BOUNDARY = 1e-6
+
 #: Cosine of how far what is upright may lean: 45 degrees.
 UPRIGHT = 0.7071
 
@@ -177,13 +180,14 @@ class Query:
         if self.options.local_importance == "constant":
             return np.ones_like(away)
         polygon = seen.elements.polygon_of(element)
+        inside = self._inside(seen)
         # Of few polygons is the example inside, and the largest circle in one takes long to find.
-        within = zip(seen.elements.polygons, seen.inside.any(axis=1).tolist(), strict=True)
+        within = zip(seen.elements.polygons, inside.any(axis=1).tolist(), strict=True)
         inscribed = np.array([p.inscribed_radius if holds else 0.0 for p, holds in within])
         enclosing = np.array([2 * p.enclosing_radius for p in seen.elements.polygons])
         # A member as wide as the room would else be attended to across all of it.
         outside = np.minimum(enclosing, 2 * self.arrangement.parent.enclosing_radius)
-        radius = np.where(seen.inside[polygon], inscribed[polygon, None], outside[polygon, None])
+        radius = np.where(inside[polygon], inscribed[polygon, None], outside[polygon, None])
         importance = np.maximum(0.0, 1 - away / (radius * (FOOTPRINT_REACH if self.rigid else 1.0)))
         if self._context:
             across = 2 * self.arrangement.parent.enclosing_radius
@@ -192,6 +196,17 @@ class Query:
             alike = np.array([1, *(labels.count(label) for label in labels)])[polygon]
             importance[:, 0] += CONTEXT / alike * np.maximum(0.0, 1 - away[:, 0] / across)
         return importance
+
+    def _inside(self, seen: Observation) -> NDArray[np.bool_]:
+        """Whether samples count as inside polygons, for section 4.4; shape (polygons, samples).
+
+        All of them are inside the parent: of an object at a wall some lie a rounding error, or what a hand slips, to
+        either side of it. Those on the boundary of a member are inside that.
+        """
+        size = np.array([p.size for p in seen.elements.polygons])
+        inside: NDArray[np.bool_] = seen.inside | (seen.boundary.distance <= ON_BOUNDARY * size[:, None])
+        inside[0] = True
+        return inside
 
 
 def distance(element: ElementType, seen: Observation) -> Array:

@@ -22,15 +22,16 @@ ITERATIONS = 6
 
 #: Candidates of an arrangement kept after an iteration, by its number: at the most so many for each of its senses and
 #: scales, within this share of the best importance. Falling behind early says little, falling behind late is final.
-KEPT = {0: (24, 0.25), 1: (20, 0.35), 2: (16, 0.4), 3: (12, 0.4)}
+#: What candidates are worth where they begin says nothing: the best may begin three half-widths from its maximum.
+KEPT = {1: (20, 0.35), 2: (16, 0.4), 3: (12, 0.4)}
 
 #: From this iteration on candidates of different senses at one place count as the same: before, the one that is worth
 #: less there may still become the better one.
 ACROSS_SENSES = 2
 
-#: How far candidates still move, in half-widths of level sets: at first, and once the last have been dropped. Of the
-#: best results nineteen in twenty began nearer than 1.25.
-SLACK_AT_FIRST = 1.25
+#: How far into what the object may not be in candidates may be, in half-widths of level sets: at first, and once the
+#: last have been dropped.
+SLACK_AT_FIRST = 2.0
 SLACK_AT_LAST = 0.5
 
 #: Candidates that cannot be accepted are looked beside from this share of the best importance on.

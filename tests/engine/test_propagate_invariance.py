@@ -64,6 +64,36 @@ def test_results_follow_a_scene_that_is_moved_turned_and_scaled(where, name):
     assert_follow(BEFORE[name], after, where)
 
 
+#: Things at a wall: one with a notch, a thin one, and one without parallel sides.
+AT_A_WALL = {
+    "U": ring((-0.8, -0.5), (0.8, -0.5), (0.8, 0.5), (0.5, 0.5), (0.5, -0.2), (-0.5, -0.2), (-0.5, 0.5), (-0.8, 0.5)),
+    "shelf": rectangle(1.6, 0.24, (-0.8, -0.12)),
+    "wedge": ring((-0.8, -0.5), (0.8, -0.5), (-0.8, 0.5)),
+}
+
+
+@pytest.mark.parametrize("name", AT_A_WALL)
+def test_in_no_direction_of_the_scene_the_best_place_is_lost(name):
+    """Candidates lie up to three half-widths from the best place, in the wall or before it, as the grid happens to."""
+    rng, outline = np.random.default_rng(5), AT_A_WALL[name]
+    before = seen(ROOMS, footprint=outline)
+    for _ in range(60):
+        where = Similarity(float(rng.uniform(-np.pi, np.pi)), float(np.exp(rng.uniform(-2, 2))))
+        after = seen([placed(p, where) for p in ROOMS], moved(BED_POSE, where), outline * where.scale)
+        assert_follow(before, after, where)
+
+
+@pytest.mark.parametrize("slip", [-2e-3, -1e-12, 1e-12, 2e-3])
+def test_a_hand_that_slips_into_the_wall_or_off_it_changes_little(slip):
+    # The bed's head touches the wall above.
+    (x, y), before = BED_POSE.position, BEFORE["bed"]
+    after = seen(ROOMS, Pose((x, y + slip), BED_POSE.angle))
+    for room, result in before.items():
+        away, turn = gap(after[room].pose, result.pose)
+        assert away <= abs(slip) + 1e-3 and turn <= 1e-2
+        assert after[room].importance == pytest.approx(result.importance, abs=0.01)
+
+
 @given(similarities(scales=(0.5, 2.0), mirrored=True), names)
 @few(10)
 def test_a_mirrored_scene_has_mirrored_results(where, name):
