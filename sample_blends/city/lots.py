@@ -62,6 +62,21 @@ class Lot:
         """Its area."""
         return shapely.Polygon(self.ring)
 
+    @property
+    def front(self) -> shapely.LineString:
+        """Its edge on the street."""
+        return shapely.LineString(self.ring[:2])
+
+    @property
+    def ways(self) -> tuple[tuple[str, float, float], ...]:
+        """The walks and drives of its house: their kind, and from where to where they are on the front."""
+        if self.type == "condominium":
+            middle = self.width / 2 - 1.0
+            return ("walk", middle - 1.2, middle + 1.2), ("drive", self.width - 3.4, self.width - 0.4)
+        if self.type == "two-storey":
+            return ("drive", 1.1, 4.4), ("walk", 5.4, 6.7)
+        return (("walk", 4.1, 5.4),)
+
     def properties(self, id: str) -> dict[str, object]:
         """What a file says of it."""
         return {"id": id, "label": self.type, "orientation": round(self.angle, 6), "segment_labels": list(EDGES)}

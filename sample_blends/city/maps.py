@@ -14,16 +14,15 @@ import shapely.ops
 from shapely.geometry.base import BaseGeometry
 
 from .convert import ATTRIBUTION, SOURCE
+from .ground import CARRIAGEWAY, NARROW, PAVEMENT, Paved, cells, paved, reaches, strips, without_slivers
 from .lots import Lot, front_of, lot_in, lots_along
 
 HERE = Path(__file__).resolve().parent
 MAPS = ("bubenec", "curves", "closes", "grid")
 
-#: Half the width of carriageways, and with the pavements, metres.
-CARRIAGEWAY, PAVEMENT = 3.6, 6.4
-
-#: Distance between street trees, of these from the middle of the street, and how far trees stay from junctions.
-TREES_APART, TREES_ASIDE, CLEAR_OF_JUNCTIONS = 11.0, 5.3, 13.0
+#: Distance between street trees, of these from the middle of the street, and how far trees stay from junctions and
+#: from where walks and drives meet the street, metres.
+TREES_APART, TREES_ASIDE, CLEAR_OF_JUNCTIONS, CLEAR_OF_WAYS = 11.0, 4.6, 13.0, 1.0
 
 #: Plots of the real quarter larger than this are parks; those larger than half of it are divided.
 PARK = 5200.0
@@ -33,9 +32,6 @@ MOST_LOTS = 6
 
 #: How far from the streets the real quarter ends, metres.
 NEAR = 62.0
-
-#: How far before a lot the ground up to the street is paved at most, metres.
-FORECOURT = 10.0
 
 #: Distance within which a plot that looks at a street is on it, metres.
 ON_STREET = 13.0
@@ -56,8 +52,8 @@ class Map:
 
     def add(self, shape: BaseGeometry, **properties: object) -> None:
         """Add the polygons of a shape."""
-        for part in shapely.get_parts(shapely.set_precision(shape, 0.01)):
-            if part.geom_type == "Polygon" and part.area > 1.5:
+        for part in shapely.get_parts(shapely.set_precision(shape, 0.001)):
+            if part.geom_type == "Polygon" and part.area > 1.0:
                 geometry = json.loads(shapely.to_geojson(part))
                 self.features.append({"type": "Feature", "properties": properties, "geometry": geometry})
 
@@ -84,32 +80,34 @@ class Map:
         path.write_text(f'{json.dumps(head)[:-1]}, "features": [\n{lines}\n]}}\n', encoding="utf-8")
 
 
-def add_streets(
-    drawn: Map,
-    lines: Sequence[shapely.LineString],
-    beside: BaseGeometry,
-    rng: np.random.Generator,
-    courts: BaseGeometry | None = None,
+def add_ground(drawn: Map, ground: Paved, grown: Sequence[tuple[str, BaseGeometry]]) -> None:
+    """Add what is paved, and what grows beside it."""
+    drawn.add(ground.street, label="street")
+    # Names of their own: walks and drives on lots are made by operations.
+    drawn.add(ground.walks, label="front walk")
+    drawn.add(ground.drives, label="front drive")
+    for label, part in without_slivers([("pavement", ground.pavement), *grown]):
+        drawn.add(part, label=label)
+
+
+def add_street_trees(
+    drawn: Map, lines: Sequence[shapely.LineString], ground: Paved, lots: Sequence[Lot], rng: np.random.Generator
 ) -> None:
-    """Add carriageways, pavements up to what lies beside, widened by forecourts, and trees along them."""
-    middle = shapely.union_all(lines)
-    carriageway = middle.buffer(CARRIAGEWAY, quad_segs=4)
-    drawn.add(carriageway, label="street")
-    # Corners of pavements are rounded inwards, too.
-    walks = middle.buffer(PAVEMENT, quad_segs=4).difference(carriageway).difference(beside)
-    if courts is not None:
-        walks = walks.union(courts)
-    drawn.add(walks, label="pavement")
+    """Add trees along the kerbs, clear of junctions and of where walks and drives meet the street."""
     ends = shapely.MultiPoint([p for line in lines for p in (line.coords[0], line.coords[-1])])
     crossings = [a.intersection(b) for i, a in enumerate(lines) for b in lines[:i]]
-    clear = shapely.union_all([ends, *crossings]).buffer(CLEAR_OF_JUNCTIONS)
+    ways = shapely.union_all([strip for lot in lots for _, strip in strips(lot)]).buffer(CLEAR_OF_WAYS)
+    clear = shapely.union_all([ends, *crossings]).buffer(CLEAR_OF_JUNCTIONS).union(ways)
+    shapely.prepare(clear)
     spots = []
     for line in lines:
         for offset in (TREES_ASIDE, -TREES_ASIDE):
             row = line.parallel_offset(offset)
             for s in np.arange(TREES_APART / 2, row.length, TREES_APART):
-                spot = row.interpolate(s + rng.uniform(-0.6, 0.6))
-                if not spot.intersects(clear) and walks.contains(spot) and rng.random() < 0.8:
+                # Beside its place where that is before a door.
+                tried = [row.interpolate(s + rng.uniform(-0.6, 0.6) + aside) for aside in (0.0, 2.0, -2.0, 4.0, -4.0)]
+                spot = next((p for p in tried if ground.pavement.contains(p) and not clear.intersects(p)), None)
+                if spot is not None and rng.random() < 0.85:
                     spots.append(spot.coords[0])
     drawn.add_trees(np.array(spots).reshape(-1, 2), "broad-leaved tree", 2.0, rng)
 
@@ -136,9 +134,10 @@ def real(seed: int = 1) -> Map:
     streets = shapely.union_all(lines)
     plots = joined([shape for label, shape in shapes if label == "plot" and shape.area > 5.0], streets)
     plots = [part for plot in plots for part in divided(plot)]
-    paved = streets.buffer(CARRIAGEWAY + 1.6)  # where the middle of a street touches plots
+    beyond = streets.buffer(CARRIAGEWAY + NARROW, quad_segs=4)  # where the middle of a street touches plots
     near = streets.buffer(NEAR, quad_segs=3)
     drawn = Map(ATTRIBUTION)
+    carriageway, every = streets.buffer(CARRIAGEWAY, quad_segs=4), shapely.union_all(plots)
     ground: list[shapely.Polygon] = []
     lots: list[Lot] = []
     for k, plot in enumerate(plots):
@@ -149,35 +148,25 @@ def real(seed: int = 1) -> Map:
         if plot.area < PARK:
             # Some plots of the source lie on each other.
             taken = shapely.union_all([lot.shape for lot in lots])
-            lots += lots_of(plot.difference(taken.buffer(0.05)).difference(paved), streets, str(k))
-    courts = forecourts(lots, streets.buffer(CARRIAGEWAY, quad_segs=4))
-    add_streets(drawn, lines, shapely.union_all(plots).difference(courts), rng, courts)
-    built = shapely.union_all([lot.shape for lot in lots]).buffer(2.5).union(courts.buffer(2.5))
-    planted = shapely.Polygon()
-    for k, plot in enumerate(ground):
+            others = every.difference(plot.buffer(0.3)).union(taken)
+            for lot in lots_of(plot.difference(taken.buffer(0.05)).difference(beyond), streets, str(k)):
+                if reaches(lot, carriageway, others):
+                    lots.append(lot)
+    hard = paved(lines, lots, every)
+    add_street_trees(drawn, lines, hard, lots, rng)
+    grown: list[tuple[str, BaseGeometry]] = []
+    taken = shapely.union_all([hard.whole, *(lot.shape for lot in lots)])
+    clear = shapely.union_all([lot.shape for lot in lots]).buffer(2.5).union(hard.whole.buffer(2.5))
+    for plot in ground:
         park = plot.area >= PARK
-        drawn.add(plot.difference(courts), label="park" if park else "garden", id=f"plot {k + 1}")
+        grown.append(("park" if park else "garden", plot.difference(taken)))
         kind, radius, apart = ("broad-leaved tree", 2.9, 11.0) if park else ("small tree", 1.9, 7.5)
-        drawn.add_trees(
-            scattered(plot.buffer(-2.5).difference(built).difference(planted), apart, rng), kind, radius, rng
-        )
-        planted = planted.union(plot)
+        drawn.add_trees(scattered(plot.buffer(-2.5).difference(clear), apart, rng), kind, radius, rng)
+        taken, clear = taken.union(plot), clear.union(plot)
+    grown += [("verge", cell) for cell in cells(near.difference(taken))]
+    add_ground(drawn, hard, grown)
     drawn.add_lots(lots)
     return drawn
-
-
-def forecourts(lots: Sequence[Lot], carriageway: BaseGeometry) -> BaseGeometry:
-    """The ground between the fronts of lots and a street that is near: walks and drives end at it."""
-    built = shapely.union_all([lot.shape for lot in lots])
-    found = []
-    for lot in lots:
-        a, b = lot.ring[:2]
-        out = np.array([b[1] - a[1], a[0] - b[0]]) * FORECOURT / lot.width
-        strip = shapely.Polygon([a, b, b + out, a + out])
-        before = shapely.get_parts(strip.difference(carriageway).difference(built))
-        front = shapely.LineString([a, b])
-        found += [p for p in before if p.distance(front) < 0.1 and p.distance(carriageway) < 0.1]
-    return shapely.union_all(found)
 
 
 def lots_of(plot: BaseGeometry, streets: BaseGeometry, name: str) -> Iterator[Lot]:
@@ -248,9 +237,12 @@ def generated(lines: Sequence[shapely.LineString], weights: Sequence[float], see
     middle = shapely.union_all(lines)
     lots = lots_along(lines, middle.buffer(PAVEMENT - 0.3), PAVEMENT, weights, seed)
     built = shapely.union_all([lot.shape for lot in lots])
-    add_streets(drawn, lines, built, rng)
-    drawn.add_lots(lots)
+    hard = paved(lines, lots, built)
+    add_street_trees(drawn, lines, hard, lots, rng)
     quarter = shapely.union_all([lot.shape.buffer(14.0) for lot in lots]).buffer(-4.0)
+    green = quarter.difference(built).difference(hard.whole)
+    add_ground(drawn, hard, [("verge", cell) for cell in cells(green)])
+    drawn.add_lots(lots)
     free = quarter.difference(built.buffer(2.2)).difference(middle.buffer(PAVEMENT + 1.5))
     drawn.add_trees(scattered(free, 8.0, rng), "broad-leaved tree", 2.4, rng)
     return drawn

@@ -1,4 +1,4 @@
-"""The condominium: three to five storeys under a mansard or a flat roof, with balconies and a base."""
+"""The condominium: three to five storeys under a mansard or a flat roof with an attic, loggias to the garden."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from geoanalogy.geometry.roof import Roof
 
-from .parts import GARDEN, SIDE, STREET, along_bottom, bars, over, windows
+from .parts import GARDEN, PAVED, SIDE, STREET, bars, over, windows
 from .recorder import Box, Recorder, Sheet
 
 PLOT = "condominium"
@@ -52,7 +52,7 @@ def street_windows(s: Sheet) -> Sequence[Box]:
 
 def stair_windows(s: Sheet) -> Sequence[Box]:
     x0, _, x1, y1 = s.edges
-    return [((x0 + x1) / 2 - 0.8, d[3] + 1.2, (x0 + x1) / 2 + 0.8, y1 - 1.0) for d in s.boxes("entrance")]
+    return [((x0 + x1) / 2 - 0.8, d[3] + 0.9, (x0 + x1) / 2 + 0.8, y1 - 0.8) for d in s.boxes("entrance")]
 
 
 def side_windows(s: Sheet) -> Sequence[Box]:
@@ -65,9 +65,20 @@ def loggias(s: Sheet) -> Sequence[Box]:
     return [(x0 + 1.0, y0 + 0.9, x1 - 1.0, y1 - 0.8)] if s.width > 8 else []
 
 
+def parapet(s: Sheet) -> Sequence[Box]:
+    """Along the outer edge of a loggia's floor."""
+    x0, y0, x1, _ = s.edges
+    return [(x0, y0 + 0.05, x1, y0 + 0.17)]
+
+
 def attic(s: Sheet) -> Sequence[Box]:
     x0, y0, x1, y1 = s.edges
     return [(x0 + 1.5, y0 + 1.5, x1 - 1.5, y1 - 1.5)] if s.height > 10 else []
+
+
+def attic_windows(s: Sheet) -> Sequence[Box]:
+    x0, y0, x1, y1 = s.edges
+    return [(x0 + 1.2, y0 + 0.6, x1 - 1.2, y1 - 0.5)]
 
 
 def plant(s: Sheet) -> Sequence[Box]:
@@ -125,6 +136,24 @@ def record(r: Recorder) -> None:
     r.at = (*ends, winged)
     r.extrude("stairs", 8.9, side="stair wall", top="porch terrace")
     r.merge("block", "siblings")
+    # What takes a solid as a whole comes before the many things on its walls, which it would have to carry along.
+    r.place("attic", "terrace", attic, 4, max_per={"terrace": 1})
+    r.extrude("attic", 2.6, side="attic wall", top="attic terrace")
+    r.merge("attic")
+    side = "attic wall"
+    r.place(
+        "attic window",
+        side,
+        attic_windows,
+        4,
+        size=(1.8, 1.5),
+        gap=(1.4, 1.0),
+        fit=("repeat", "repeat"),
+        max_per={side: 1},
+    )
+    r.recess("attic window", 0.15, "attic glass")
+    r.place("plant", "attic terrace", plant, 4, max_per={"attic terrace": 1})
+    r.attach("plant", 1.1)
 
     front = "street stair wall"
     r.place("entrance", front, entrance, 4, max_per={front: 1})
@@ -132,30 +161,26 @@ def record(r: Recorder) -> None:
     r.place("canopy", front, over("entrance", 0.5, 0.1, 0.3), 4, max_per={front: 1})
     r.attach("canopy", 1.2)
     windows(r, "stair window", front, stair_windows, (1.6, 1.5), (1.0, 1.5))
-    windows(r, "window", STREET, street_windows, (1.5, 1.6), (1.3, 1.5))
-    bars(r, "window")
     r.place("cornice", STREET, cornice, 4, max_per={STREET: 1})
     r.attach("cornice", 0.2)
+    windows(r, "window", STREET, street_windows, (1.5, 1.6), (1.3, 1.5))
+    bars(r, "window")
 
     windows(r, "side window", SIDE, side_windows, (1.1, 1.6), (2.4, 1.5))
     r.place(
         "loggia", GARDEN, loggias, 5, size=(2.6, 2.3), gap=(0.9, 0.8), fit=("repeat", "repeat"), max_per={GARDEN: 1}
     )
-    r.recess("loggia", 1.2, "loggia glass")
-    r.place("balcony", "loggia glass", along_bottom(0.2), 2, max_per={"loggia glass": 1})
-    r.attach("balcony", 2.1)
+    r.recess("loggia", 1.2, "loggia glass", "loggia reveal")
+    floor = "lower loggia reveal"
+    r.place("balcony", floor, parapet, 2, max_per={floor: 1})
+    r.attach("balcony", 1.0)
 
-    r.place("attic", "terrace", attic, 4, max_per={"terrace": 1})
-    r.extrude("attic", 2.6, side="attic wall", top="attic terrace")
-    r.merge("attic")
-    r.place("plant", "attic terrace", plant, 4, max_per={"attic terrace": 1})
-    r.attach("plant", 1.1)
     r.place("parking", PLOT, parking, 4, max_per={PLOT: 1})
-    r.extrude("parking", 0.06)
+    r.extrude("parking", 1.5 * PAVED)
     r.place("drive", PLOT, drive, 4, max_per={PLOT: 1})
-    r.extrude("drive", 0.05)
+    r.extrude("drive", PAVED)
     r.place("walk", PLOT, walk, 4, max_per={PLOT: 1})
-    r.extrude("walk", 0.05)
+    r.extrude("walk", PAVED)
     r.place("hedge", PLOT, left_hedge, 4, max_per={PLOT: 1})
     r.place("hedge", PLOT, right_hedge, 4, max_per={PLOT: 1})
     r.extrude("hedge", 0.9, (0.8, 1.3))

@@ -1,4 +1,4 @@
-"""The one-storey house: low, under a gable roof, with a wing behind it or without."""
+"""The one-storey house: low, under a gable roof, with a wing behind it or without, and a shed in the garden."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from geoanalogy.geometry.roof import Roof
 
-from .parts import GARDEN, SIDE, STREET, bars, over, pane, windows
+from .parts import GARDEN, PAVED, SIDE, STREET, bars, mullion, over, pane, windows
 from .recorder import Box, Recorder, Sheet
 
 PLOT = "one-storey"
@@ -21,7 +21,13 @@ def body(s: Sheet) -> Sequence[Box]:
 
 
 def wing(s: Sheet) -> Sequence[Box]:
-    return [(x0, y1 - 1, x0 + 6, y1 + 4) for x0, _, _, y1 in s.boxes("house")]
+    """Deeper than wide, so that its gable looks into the garden, and so far inside that the other one is hidden."""
+    return [(x0, y1 - 2.6, x0 + 4.8, y1 + 4) for x0, _, _, y1 in s.boxes("house")]
+
+
+def wing_windows(s: Sheet) -> Sequence[Box]:
+    x0, y0, x1, _ = s.edges
+    return [(x0 + 0.9, y0 + 0.9, x1 - 0.9, y0 + 2.2)]
 
 
 def door(s: Sheet) -> Sequence[Box]:
@@ -79,9 +85,19 @@ def shed(s: Sheet) -> Sequence[Box]:
     return [(x1 - 4.5, y1 - 3.5, x1 - 1.0, y1 - 1.0)]
 
 
-def hedges(s: Sheet) -> Sequence[Box]:
-    x0, y0, x1, y1 = s.edges
-    return [(x0 + 0.2, y0 + 1, x0 + 0.9, y1 - 0.2), (x1 - 0.9, y0 + 1, x1 - 0.2, y1 - 0.2)]
+def shed_door(s: Sheet) -> Sequence[Box]:
+    x0, y0, x1, _ = s.edges
+    return [((x0 + x1) / 2 - 0.5, y0, (x0 + x1) / 2 + 0.5, y0 + 1.9)]
+
+
+def left_hedge(s: Sheet) -> Sequence[Box]:
+    x0, y0, _, y1 = s.edges
+    return [(x0 + 0.2, y0 + 1, x0 + 0.9, y1 - 0.2)]
+
+
+def right_hedge(s: Sheet) -> Sequence[Box]:
+    _, y0, x1, y1 = s.edges
+    return [(x1 - 0.9, y0 + 1, x1 - 0.2, y1 - 0.2)]
 
 
 def path(s: Sheet) -> Sequence[Box]:
@@ -95,10 +111,15 @@ def record(r: Recorder) -> None:
     without, winged = r.select(PLOT, (1.0, 1.0))
     r.at = (winged,)
     r.place("wing", PLOT, wing, 4, max_per={PLOT: 1})
-    r.extrude("wing", 2.9, roof=Roof("gable", PITCH), side="wing wall")
+    r.extrude("wing", 2.9, roof=Roof("gable", PITCH), side="wing wall", gable="wing gable")
     r.at = (without, *r.at)
     r.extrude("house", 2.9, roof=Roof("gable", PITCH), side="wall")
     r.merge("house", "siblings")
+
+    r.place("skylight", "roof", skylight, 4, max_per={"roof": 1})
+    r.attach("skylight", 0.06, top="skylight glass")
+    r.place("gable window", "gable", gable_window, 4, max_per={"gable": 1})
+    r.recess("gable window", 0.15, "gable glass")
 
     r.place("door", STREET, door, 4, max_per={STREET: 1})
     r.recess("door", 0.25, "front door")
@@ -131,16 +152,16 @@ def record(r: Recorder) -> None:
     windows(r, "side window", SIDE, side_windows, (1.1, 1.3), (1.6, 1.0))
     r.place("terrace door", GARDEN, terrace_door, 4, max_per={GARDEN: 1})
     r.recess("terrace door", 0.2, "terrace glass")
+    mullion(r, "terrace glass", "terrace upright")
     windows(r, "garden window", GARDEN, garden_windows, (1.6, 1.3), (0.9, 1.0))
-
-    r.place("skylight", "roof", skylight, 4, max_per={"roof": 1})
-    r.attach("skylight", 0.06, top="skylight glass")
-    r.place("gable window", "gable", gable_window, 4, max_per={"gable": 1})
-    r.recess("gable window", 0.15, "gable glass")
+    windows(r, "wing window", "garden wing wall", wing_windows, (1.3, 1.3), (0.4, 1.0))
 
     r.place("shed", PLOT, shed, 4, max_per={PLOT: 1})
     r.extrude("shed", 2.1, roof=Roof("hip", PITCH))
-    r.place("hedge", PLOT, hedges, 4, max_per={PLOT: 2})
+    r.place("shed door", "street shed", shed_door, 3, max_per={"street shed": 1})
+    r.recess("shed door", 0.08, "shed door")
+    r.place("hedge", PLOT, left_hedge, 4, max_per={PLOT: 1})
+    r.place("hedge", PLOT, right_hedge, 4, max_per={PLOT: 1})
     r.extrude("hedge", 1.1, (0.8, 1.3))
     r.place("path", PLOT, path, 4, max_per={PLOT: 1})
-    r.extrude("path", 0.05)
+    r.extrude("path", PAVED)

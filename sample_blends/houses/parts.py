@@ -15,6 +15,9 @@ STREET, SIDE, GARDEN = "street wall", "side wall", "garden wall"
 #: How deep windows lie in walls, and how far sills stand out of them.
 REVEAL, SILL = 0.15, 0.1
 
+#: How high walks and drives lie above the lawn.
+PAVED = 0.02
+
 
 def over(label: str, out: float, low: float, high: float) -> Draw:
     """A box over every element of a label: so much wider on either side, from and to so much above it."""
@@ -74,3 +77,9 @@ def bars(r: Recorder, label: str) -> None:
     r.place(f"{label} crossbar", glass, level_bar(0.06), 2, max_per={glass: 1})
     r.attach(f"{label} upright", 0.04)
     r.attach(f"{label} crossbar", 0.05)
+
+
+def mullion(r: Recorder, glass: str, label: str) -> None:
+    """An upright bar on every pane of a label: three operations."""
+    r.place(label, glass, upright_bar(0.1), 2, max_per={glass: 1})
+    r.attach(label, 0.06)

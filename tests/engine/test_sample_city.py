@@ -11,8 +11,9 @@ from geoanalogy.batch.generation import Choices, generate, merged
 from geoanalogy.formats.files import read_parcels
 from geoanalogy.formats.repair import without_overlaps
 from geoanalogy.geometry.scene import Scene
-from sample_blends.city.lots import FURTHEST, TYPES, front_of, lot_in, lots_along
-from sample_blends.city.maps import HERE, MAPS, ON_STREET, PAVEMENT
+from sample_blends.city.ground import CARRIAGEWAY, PAVEMENT, SLIVER, strips
+from sample_blends.city.lots import FURTHEST, TYPES, Lot, front_of, lot_in, lots_along
+from sample_blends.city.maps import HERE, MAPS, ON_STREET
 from sample_blends.houses.plots import TYPES as LABELS
 
 
@@ -46,15 +47,53 @@ def test_every_lot_has_its_front_on_a_street(maps):
             assert np.cos(np.arctan2(along[1], along[0]) - p.orientation) == pytest.approx(1, abs=1e-4)
 
 
-def test_walks_end_at_a_pavement_and_no_tree_stands_on_a_lot(maps):
+def lot_of(p):
+    """A lot of a file as the script has it."""
+    along, deep = np.hypot(*(p.points[1:3] - p.points[:2]).T)
+    return Lot(tuple(p.points[0]), p.orientation, along, deep, p.label)
+
+
+def test_walks_and_drives_lead_to_a_pavement_past_all_trees(maps):
     for name, (scene, _) in maps.items():
-        paved = shapely.union_all([p.shape for p in scene.polygons if p.label == "pavement"])
-        fronts = shapely.linestrings(np.array([p.points[:2] for p in lots(scene)]))
-        assert np.mean(shapely.distance(fronts, paved) < 0.1) > 0.97, name
-        reached = [front.buffer(0.6, cap_style="flat").intersection(paved).area for front in fronts]
-        assert np.mean(np.array(reached) > 0.3 * shapely.length(fronts)) > 0.97, name
-        trees = [p.shape.centroid for p in scene.polygons if p.label.endswith("tree")]
+        street = shapely.union_all([p.shape for p in scene.polygons if p.label == "street"])
+        hard = ("pavement", "front walk", "front drive")
+        paved = shapely.union_all([p.shape for p in scene.polygons if p.label in hard]).buffer(0.02)
+        trees = shapely.points([p.centroid for p in scene.polygons if p.label.endswith("tree")])
+        ways = [(lot, strip) for lot in map(lot_of, lots(scene)) for _, strip in strips(lot)]
+        for lot, strip in ways:
+            before = [p for p in shapely.get_parts(strip.difference(street)) if p.distance(lot.front) < 0.1]
+            assert len(before) == 1 and strip.intersection(street).area > 0.3, (name, lot)
+            assert before[0].difference(paved).area < 0.1 * before[0].area + 0.05, (name, lot)
+            assert not shapely.contains(before[0], trees).any(), (name, lot)
         assert not len(shapely.STRtree(trees).query([p.shape for p in lots(scene)], predicate="contains")[0]), name
+
+
+def test_pavements_are_of_one_width_and_the_ground_has_no_gaps(maps):
+    for name, (scene, _) in maps.items():
+        flat = [p.shape for p in scene.polygons if not p.label.endswith("tree")]
+        labels = [p.label for p in scene.polygons if not p.label.endswith("tree")]
+        street = shapely.union_all([s for s, label in zip(flat, labels, strict=True) if label == "street"])
+        pavement = shapely.union_all([s for s, label in zip(flat, labels, strict=True) if label == "pavement"])
+        assert pavement.difference(street.buffer(PAVEMENT - CARRIAGEWAY + SLIVER)).area < 0.01 * pavement.area, name
+        beside = shapely.union_all([p.shape for p in lots(scene)]).buffer(3.0)
+        bare = beside.difference(shapely.union_all(flat).buffer(0.03))
+        assert bare.area < 0.002 * beside.area, name
+        assert sum(s.area for s in flat) - shapely.union_all(flat).area < 0.001 * beside.area, name
+
+
+def test_ways_are_where_houses_have_their_walks_and_drives(maps):
+    scene = maps["grid"][0]
+    for label in LABELS:
+        tree = OperationsTree.load(HERE.parent / "houses" / f"{label}.json")
+        for p in [p for p in lots(scene) if p.label == label][:3]:
+            lot = lot_of(p)
+            made = [e for e in tree.apply(Scene([p]), seed=7) if e.label in ("path", "walk", "drive")]
+            begin = [shapely.Polygon(e.frame.to_space(e.ring)[:, :2]).buffer(0.01) for e in made]
+            wanted = [shapely.box(a, 0.0, b, 0.1) for _, a, b in lot.ways]
+            c, s = np.cos(lot.angle), np.sin(lot.angle)
+            placed = [shapely.transform(w, lambda q: q @ [[c, s], [-s, c]] + lot.corner) for w in wanted]  # noqa: B023
+            assert len(begin) == len(placed)
+            assert all(any(b.contains(w) for b in begin) for w in placed), lot
 
 
 def test_the_real_map_names_its_source():
