@@ -17,6 +17,8 @@ class GEOANALOGY_OT_array(SearchSettings, LongEdit, bpy.types.Operator):
     bl_idname = "geoanalogy.array"
     bl_label = "Array"
 
+    in_metres = {"spacing": 1}
+
     spacing: FloatProperty(
         name="Spacing",
         description="Distance between two objects along the path",

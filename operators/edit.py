@@ -1,6 +1,6 @@
 """What all operators share: errors are reported, and long work is done in slices that Esc can stop between."""
 
-from collections.abc import Generator
+from collections.abc import Generator, Mapping
 from pathlib import Path
 
 import bpy
@@ -9,6 +9,7 @@ from bpy_extras.io_utils import ImportHelper
 
 from ..geoanalogy.blender.jobs import Job, at_work
 from ..geoanalogy.blender.tree.store import recorded_nodes, tree_of
+from ..geoanalogy.blender.units import in_scene_units
 from ..geoanalogy.errors import InputError
 from ..geoanalogy.progress import run
 
@@ -68,6 +69,9 @@ class LongEdit:
 
     bl_options = {"REGISTER", "UNDO"}
 
+    #: Options whose defaults are metres, or powers of them: they are as large where a scene unit is something else.
+    in_metres: Mapping[str, int] = {}
+
     def steps(self, context: bpy.types.Context) -> Generator[tuple[float, str], None, str]:
         """The work as a stepper, which returns what to tell the user and writes nothing before its last step."""
         raise NotImplementedError
@@ -81,6 +85,9 @@ class LongEdit:
         return {"FINISHED"}
 
     def invoke(self, context, event):
+        for name, power in self.in_metres.items():
+            if not self.properties.is_property_set(name):
+                setattr(self, name, in_scene_units(context.scene, getattr(self, name), power))
         if bpy.app.background or context.window is None:
             return self.execute(context)
         self._job = Job(self.steps(context))

@@ -22,6 +22,8 @@ class GEOANALOGY_OT_extrude(LongEdit, bpy.types.Operator):
     bl_idname = "geoanalogy.extrude"
     bl_label = "Extrude"
 
+    in_metres = {"height": 1}
+
     label: StringProperty(
         name="Label",
         description="Of what is extruded; empty: that of the active object, else of the active operation",
@@ -47,6 +49,7 @@ class GEOANALOGY_OT_extrude(LongEdit, bpy.types.Operator):
         name="Walls",
         description="Thickness of the walls of a room that is open above; 0: a full body",
         min=0.0,
+        subtype="DISTANCE",
         options={"SKIP_SAVE"},
     )
     side: _face("side", "Sides")

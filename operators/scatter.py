@@ -16,6 +16,8 @@ class GEOANALOGY_OT_scatter(PoseSettings, LongEdit, bpy.types.Operator):
     bl_idname = "geoanalogy.scatter"
     bl_label = "Scatter"
 
+    in_metres = {"density": -2}
+
     amount: EnumProperty(
         name="Amount",
         items=[

@@ -9,6 +9,7 @@ from ...operations.operation import Operation
 from ...operations.selection import Selection
 from .. import names
 from ..reading.planes import Plane
+from ..units import in_scene_units
 from .editing import free_id
 from .writing_nodes import add_node
 
@@ -19,7 +20,7 @@ KINDS = {
     Selection.type: "Divide what is of a label among branches",
 }
 
-#: Height of an extrusion that nobody has set, scene units.
+#: Height of an extrusion that nobody has set, metres.
 HEIGHT = 3.0
 
 
@@ -39,8 +40,9 @@ def new_node(tree: bpy.types.NodeTree, kind: str, label: str) -> bpy.types.Node:
     bpy.types.Node
         Selected alone, active, and marked as not yet evaluated.
     """
+    height = in_scene_units(bpy.context.scene, HEIGHT)
     made: dict[str, Operation] = {
-        Extrusion.type: Extrusion(label=label, height=HEIGHT),
+        Extrusion.type: Extrusion(label=label, height=height),
         Boolean.type: Boolean(label=label),
         Selection.type: Selection(label=label, weights=(1.0, 1.0)),
     }

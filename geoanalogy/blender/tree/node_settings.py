@@ -193,7 +193,11 @@ class BuildingSettings:
         name="Inwards", description="Below the surface", get=_get("inwards", False), set=_set("inwards")
     )
     walls: FloatProperty(
-        name="Walls", description="Thickness of a room's walls", get=_get("walls", 0.0), set=_set("walls")
+        name="Walls",
+        description="Thickness of a room's walls",
+        subtype="DISTANCE",
+        get=_get("walls", 0.0),
+        set=_set("walls"),
     )
     roof: EnumProperty(name="Roof", **_enum("kind", ROOFS, "roof"))
     pitch: FloatProperty(
