@@ -101,7 +101,7 @@ class Answering:
         """
         importances = [importance for importance, _ in tried]
         factor = np.array([self._factor(i) for i in importances])
-        refined = refine(importances, [candidates for _, candidates in tried], factor, self._stand)
+        refined = refine(importances, [candidates for _, candidates in tried], factor, self._stand, self._are_example)
         found: dict[Arrangement, list[Found]] = {i.target: [] for i in importances}
         refused = self._accept(importances, factor, refined, found)
         if self._footprint is not None and self._options.validate:
@@ -227,6 +227,13 @@ class Answering:
         if not target.is_at(self._arrangement):
             return np.zeros(len(position), dtype=bool)
         return np.hypot(*(position - self._pose.position).T) < max(self._reach, self._query.width)
+
+    def _are_example(self, importances: Sequence[Importance], poses: Refined) -> Bools:
+        """Whether poses are the example itself."""
+        found = np.zeros(len(poses.which), dtype=bool)
+        for target, there in _by_arrangement(importances, poses):
+            found[there] = self.is_example(target, poses.position[there])
+        return found
 
     @cached_property
     def _reach(self) -> float:

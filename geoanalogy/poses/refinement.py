@@ -10,7 +10,7 @@ from .batch import Batch
 from .candidates import Candidates
 from .importance import Importance
 from .kernels import WIDE_SHARE, WIDE_WIDTH
-from .rivals import Refined, Rivals, Stands
+from .rivals import IsExample, Refined, Rivals, Stands
 from .rows import Misses, Rows
 
 Array = NDArray[np.float64]
@@ -74,6 +74,7 @@ def refine(
     candidates: Sequence[Candidates],
     factor: Sequence[float] | Array | None = None,
     stands: Stands | None = None,
+    is_example: IsExample | None = None,
 ) -> Refined:
     """Move poses to the nearby maximum of the importance, in many arrangements at once.
 
@@ -91,6 +92,8 @@ def refine(
         What the importances are multiplied by before those of an arrangement are compared.
     stands : callable, optional
         Which poses may be accepted; None: all. The others are dropped where better ones are left.
+    is_example : callable, optional
+        Which poses are the example itself, which is no answer; None: none.
 
     Returns
     -------
@@ -107,7 +110,8 @@ def refine(
     )
     every = Batch(importances)
     strong = every.strongest(STRONG)
-    rivals = Rivals(importances, strong, np.ones(len(importances)) if factor is None else np.array(factor), stands)
+    factor = np.ones(len(importances)) if factor is None else np.array(factor)
+    rivals = Rivals(importances, strong, factor, stands, is_example)
     start = start.of(rivals.standing(start, SLACK_AT_FIRST))
     start = replace(start, value=np.full(len(start.which), -1.0))
     found = _descend(strong, start, range(ITERATIONS + 1), rivals)

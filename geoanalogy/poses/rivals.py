@@ -94,6 +94,9 @@ class Refined:
 #: Which poses of several importances may be accepted, given how far they still move, in half-widths of level sets.
 Stands = Callable[[Sequence[Importance], Refined, float], Bools]
 
+#: Which poses of several importances are the example itself.
+IsExample = Callable[[Sequence[Importance], Refined], Bools]
+
 
 class Rivals:
     """The candidates of several arrangements, in every sense and at every scale.
@@ -108,16 +111,24 @@ class Rivals:
         What they are multiplied by before those of an arrangement are compared.
     stands : callable, optional
         Which poses may be accepted; None: all.
+    is_example : callable, optional
+        Which poses are the example itself; None: none.
     """
 
     def __init__(
-        self, importances: Sequence[Importance], batch: Batch, factor: Array, stands: Stands | None = None
+        self,
+        importances: Sequence[Importance],
+        batch: Batch,
+        factor: Array,
+        stands: Stands | None = None,
+        is_example: IsExample | None = None,
     ) -> None:
         self._importances = importances
         self._arrangement = batch.arrangement
         self._unit = batch.unit
         self._factor = factor
         self._stands = stands
+        self._is_example = is_example
         #: Number of senses and scales of each arrangement.
         self._ways = np.bincount(batch.arrangement)
         self._candidates = max(PER_PARENT, batch.query.options.candidates)
@@ -235,7 +246,11 @@ class Rivals:
         ndarray of int
             In the order of the poses.
         """
-        good = np.flatnonzero(self.shares(poses) >= share)
+        # The example outshines all other places of its room, and is no answer.
+        others = np.arange(len(poses.which))
+        if self._is_example is not None:
+            others = np.flatnonzero(~self._is_example(self._importances, poses))
+        good = others[self.shares(poses.of(others)) >= share]
         table = self.in_turn(poses.of(good))
         which = poses.which[good]
         unit = self._unit[which]

@@ -326,6 +326,16 @@ def test_of_candidates_at_one_place_the_best_is_kept(across, left):
     assert rivals.in_turn(poses, 1).tolist() == [[0, 1, -1, -1, -1]]
 
 
+def test_the_example_does_not_outshine_the_other_places_of_its_room():
+    importance = importance_of(scene_of(BEDROOM), BED_POSE, BED)
+    batch = Batch([importance])
+    poses = Refined(np.zeros(3, dtype=np.intp), np.array([(1.0, 1), (2, 1), (3, 1)]), np.zeros(3), np.ones(3))
+    poses = dataclasses.replace(poses, value=np.array([1.0, 0.3, 0.1]))
+    assert Rivals([importance], batch, np.ones(1)).leading(poses, 12, 0.4, True).tolist() == [0]
+    rivals = Rivals([importance], batch, np.ones(1), is_example=lambda _, poses: poses.value == 1.0)
+    assert rivals.leading(poses, 12, 0.4, True).tolist() == [1]
+
+
 def test_an_example_that_nothing_holds_is_worth_nothing():
     scene = Scene(
         [Polygon(rectangle(100, 100), "room", "room 0"), Polygon(rectangle(9, 9, (200, 0)), "room", "room 1")]
