@@ -4,6 +4,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 
 from ..geoanalogy.blender import names
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.tree.recording import THRESHOLD, array_steps, is_mark
 from ..geoanalogy.errors import InputError
 from ..geoanalogy.poses.arrays import ArrayOptions
@@ -73,7 +74,7 @@ class GEOANALOGY_OT_array(SearchSettings, LongEdit, bpy.types.Operator):
             ArrayOptions(self.corners, self.even, validate=self.validate, way=self.way),
             threshold=round(self.threshold, 6),
         )
-        return f"{node[names.COUNT]} objects in arrays"
+        return f"{counted(node[names.COUNT], 'object')} in arrays"
 
     def draw(self, context):
         layout = self.layout

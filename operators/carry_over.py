@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import BoolProperty
 
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.regions.recording import carry_steps
 from ..geoanalogy.blender.regions.results import uncertain_results
 from .edit import LongEdit, active_operation, needs_operations
@@ -26,7 +27,7 @@ class GEOANALOGY_OT_carry_over(LongEdit, bpy.types.Operator):
         chosen = sorted(context.selected_objects, key=lambda item: item.name)
         count = yield from carry_steps(context, node, chosen, only=self.only)
         uncertain = len(uncertain_results(node))
-        return f"Carried over to {count} regions" + (f", {uncertain} uncertain" if uncertain else "")
+        return f"Carried over to {counted(count, 'region')}" + (f", {uncertain} uncertain" if uncertain else "")
 
 
 def register():

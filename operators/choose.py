@@ -4,6 +4,7 @@ import bpy
 from bpy.props import IntProperty, StringProperty
 
 from ..geoanalogy.blender import names
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.pairs import read_pairs
 from ..geoanalogy.blender.tree.recording import choice_steps
 from ..geoanalogy.errors import InputError
@@ -44,7 +45,7 @@ class GEOANALOGY_OT_choose(SiftedPoses, LongEdit, bpy.types.Operator):
             seed=self.seed,
             **self.sifting(),
         )
-        return f"{node[names.COUNT]} results"
+        return counted(node[names.COUNT], "result")
 
     def _weights(self, items):
         """The share of every object; empty: equal shares."""

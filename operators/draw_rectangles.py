@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty, StringProperty
 
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.overlay import Overlay
 from ..geoanalogy.blender.rectangle_drawing import Sketch, add_rectangles, required_label, sites_to_draw_on
 from ..geoanalogy.errors import InputError
@@ -34,7 +35,7 @@ class GEOANALOGY_OT_draw_rectangles(ViewDrawing, bpy.types.Operator):
     def edit(self, context):
         """Put the rectangles there."""
         corners = [(tuple(one.start), tuple(one.end), round(one.target, 6)) for one in self.rectangles]
-        return f"{len(add_rectangles(context, corners, self._label(context)))} examples"
+        return counted(len(add_rectangles(context, corners, self._label(context))), "example")
 
     def _label(self, context):
         return self.label or context.scene.geoanalogy.rectangle_label

@@ -6,6 +6,7 @@ import bpy
 from bpy.props import StringProperty
 from bpy_extras.io_utils import ExportHelper
 
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.tree.files import export_tree
 from .edit import Edit, needs_operations
 
@@ -27,7 +28,7 @@ class GEOANALOGY_OT_export_tree(Edit, ExportHelper, bpy.types.Operator):
     def edit(self, context):
         """Write it."""
         path = Path(bpy.path.abspath(self.filepath))
-        return f"{export_tree(context.scene, path)} operations written to {path.name}"
+        return f"{counted(export_tree(context.scene, path), 'operation')} written to {path.name}"
 
 
 def register():

@@ -4,6 +4,7 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty
 
 from ..geoanalogy.blender import names
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.regions.recording import region_steps
 from ..geoanalogy.blender.regions.results import uncertain_results
 from ..geoanalogy.blender.regions.settings import SETTINGS, MatchingSettings, options_of
@@ -38,7 +39,7 @@ class GEOANALOGY_OT_find_regions(MatchingSettings, LongEdit, bpy.types.Operator)
         for name in SETTINGS:
             setattr(matching, name, getattr(self, name))
         uncertain, shown = len(uncertain_results(node)), node[names.COUNT]
-        return f"{shown} similar regions" + (f", {uncertain} uncertain" if uncertain else "")
+        return counted(shown, "similar region") + (f", {uncertain} uncertain" if uncertain else "")
 
     def draw(self, context):
         layout = self.layout

@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import FloatProperty, StringProperty
 
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.regions.drawings import add_lines
 from ..geoanalogy.formats.files import read_drawing
 from .edit import FileImport, chosen_file, needs_object_mode
@@ -26,7 +27,7 @@ class GEOANALOGY_OT_import_drawing(FileImport, bpy.types.Operator):
         path = chosen_file(self.filepath)
         lines = read_drawing(path)
         add_lines(context, [self.scale * line for line in lines], path.stem)
-        return f"{len(lines)} lines"
+        return counted(len(lines), "line")
 
 
 def register():

@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import FloatProperty, StringProperty
 
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.plan_making import add_plan
 from ..geoanalogy.formats.files import read_scene
 from .edit import FileImport, chosen_file, needs_object_mode
@@ -30,7 +31,7 @@ class GEOANALOGY_OT_import_plan(FileImport, bpy.types.Operator):
         """Read the file, and add its polygons to the plan."""
         path = chosen_file(self.filepath)
         scene = read_scene(path, label=self.label.strip() or None, scale=self.scale)
-        return f"{len(add_plan(context, scene, path.stem))} polygons"
+        return counted(len(add_plan(context, scene, path.stem)), "polygon")
 
 
 def register():

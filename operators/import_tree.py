@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import BoolProperty, StringProperty
 
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.tree.editing import chosen_outputs
 from ..geoanalogy.blender.tree.evaluating import mark_stale
 from ..geoanalogy.blender.tree.files import graft_tree, import_tree
@@ -34,11 +35,11 @@ class GEOANALOGY_OT_import_tree(FileImport, bpy.types.Operator):
         path = chosen_file(self.filepath)
         if not self.grow:
             tree = import_tree(context.scene, path)
-            return f"{len(tree.nodes)} operations read from {path.name}; press Apply"
+            return f"{counted(len(tree.nodes), 'operation')} read from {path.name}; press Apply"
         tree = require_operations(context.scene)
         count = graft_tree(tree, path, chosen_outputs(tree, ordered_nodes(tree)), self.prefix)
         mark_stale(tree, tree.nodes[0])
-        return f"{count} operations read from {path.name} and grown onto {tree.name}; press Apply"
+        return f"{counted(count, 'operation')} read from {path.name} and grown onto {tree.name}; press Apply"
 
 
 def register():

@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import StringProperty
 
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.writing.face_labels import label_faces
 from .edit import AsksForLabel, Edit
 
@@ -26,7 +27,7 @@ class GEOANALOGY_OT_label_faces(AsksForLabel, Edit, bpy.types.Operator):
         """Label them."""
         label = self.label.strip()
         count = label_faces(context.active_object, label)
-        return f"{count} faces labelled {label!r}" if label else f"{count} faces without a label"
+        return f"{counted(count, 'face')} {f'labelled {label!r}' if label else 'without a label'}"
 
 
 def register():

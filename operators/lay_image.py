@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import FloatProperty
 
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.regions.recording import image_steps
 from ..geoanalogy.blender.regions.results import uncertain_results
 from .edit import LongEdit, active_operation, needs_operations
@@ -30,7 +31,7 @@ class GEOANALOGY_OT_lay_image(LongEdit, bpy.types.Operator):
         node = active_operation(context)
         count = yield from image_steps(context, node, context.scene.geoanalogy.image, round(self.width, 6))
         uncertain = len(uncertain_results(node))
-        return f"Laid over {count + 1} regions" + (f", {uncertain} uncertain" if uncertain else "")
+        return f"Laid over {counted(count + 1, 'region')}" + (f", {uncertain} uncertain" if uncertain else "")
 
 
 def register():

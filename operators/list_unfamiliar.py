@@ -2,6 +2,7 @@
 
 import bpy
 
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.tree.placement_recording import unfamiliar_again_steps
 from .edit import LongEdit, active_operation, needs_operations
 
@@ -19,7 +20,7 @@ class GEOANALOGY_OT_list_unfamiliar(LongEdit, bpy.types.Operator):
     def steps(self, context):
         """Look at every face."""
         count = yield from unfamiliar_again_steps(context, active_operation(context))
-        return f"{count} faces are unlike the examples"
+        return f"{counted(count, 'face')} unlike the examples"
 
 
 def register():

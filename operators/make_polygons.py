@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import StringProperty
 
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.plan_making import polygons_from_lines
 from .edit import AsksForLabel, Edit, needs_object_mode
 
@@ -21,7 +22,7 @@ class GEOANALOGY_OT_make_polygons(AsksForLabel, Edit, bpy.types.Operator):
 
     def edit(self, context):
         """Make the polygons."""
-        return f"{len(polygons_from_lines(context, context.selected_objects, self.label))} polygons"
+        return counted(len(polygons_from_lines(context, context.selected_objects, self.label)), "polygon")
 
 
 def register():

@@ -2,6 +2,7 @@
 
 import bpy
 
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.writing.making_real import make_real
 from .edit import Edit, needs_operations
 
@@ -18,7 +19,7 @@ class GEOANALOGY_OT_make_real(Edit, bpy.types.Operator):
 
     def edit(self, context):
         """Turn all of them."""
-        return f"{make_real(context.scene)} objects of your own"
+        return f"{counted(make_real(context.scene), 'object')} of your own"
 
 
 def register():

@@ -6,6 +6,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from ..geoanalogy.blender import names
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.tree.placement_recording import THRESHOLD, placement_steps
 from ..geoanalogy.placements.options import PlacementOptions
 from .edit import LongEdit, needs_object_mode
@@ -125,7 +126,7 @@ class GEOANALOGY_OT_place(LongEdit, bpy.types.Operator):
             max_per={"": self.most} if self.most else None,
             name=self.name.strip() or None,
         )
-        return f"{node[names.COUNT]} objects placed"
+        return f"{counted(node[names.COUNT], 'object')} placed"
 
     def _options(self):
         tolerances = {name: math.inf if self.any_size else round(getattr(self, name), 6) for name in TOLERANCES}

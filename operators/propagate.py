@@ -3,6 +3,7 @@
 import bpy
 
 from ..geoanalogy.blender import names
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.tree.recording import pose_steps
 from .edit import LongEdit, needs_active_object, selected_active
 from .pose_settings import SiftedPoses
@@ -26,7 +27,7 @@ class GEOANALOGY_OT_propagate(SiftedPoses, LongEdit, bpy.types.Operator):
             self.pose_options(),
             **self.sifting(),
         )
-        return f"{node[names.COUNT]} results"
+        return counted(node[names.COUNT], "result")
 
     def draw(self, context):
         layout = self.layout

@@ -3,6 +3,7 @@
 import bpy
 
 from ..geoanalogy.blender import names
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.tree.store import placed_by
 from ..geoanalogy.errors import InputError
 from .edit import Edit, active_operation, needs_operations
@@ -33,7 +34,7 @@ class GEOANALOGY_OT_select_examples(Edit, bpy.types.Operator):
             item.select_set(True)
         if context.active_object is None or not context.active_object.select_get():
             context.view_layer.objects.active = items[0]
-        return f"{len(context.selected_objects)} examples selected"
+        return f"{counted(len(context.selected_objects), 'example')} selected"
 
 
 def register():

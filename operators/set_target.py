@@ -3,6 +3,7 @@
 import bpy
 from bpy.props import FloatProperty
 
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.linked import require_editable
 from ..geoanalogy.blender.rectangle_drawing import set_target
 from ..geoanalogy.errors import InputError
@@ -30,7 +31,7 @@ class GEOANALOGY_OT_set_target(Edit, bpy.types.Operator):
         require_editable(context.selected_objects)
         for item in context.selected_objects:
             set_target(item, round(self.target, 6))
-        return f"{len(context.selected_objects)} examples with the preference {self.target:.2f}"
+        return f"{counted(len(context.selected_objects), 'example')} with the preference {self.target:.2f}"
 
 
 def register():

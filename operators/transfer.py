@@ -4,6 +4,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty
 
 from ..geoanalogy.blender import names
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.tree.recording import is_mark, transfer_steps
 from ..geoanalogy.errors import InputError
 from ..geoanalogy.poses.local_mapping import TransferOptions
@@ -64,7 +65,7 @@ class GEOANALOGY_OT_transfer(LongEdit, bpy.types.Operator):
         items = [item for item in chosen if item not in marks]
         options = TransferOptions(system=self.system, distance=self.distance, corners=self.corners, shape=self.shape)
         node = yield from transfer_steps(context, items, options, marks, everything=self.everything)
-        return f"{node[names.COUNT]} objects transferred"
+        return f"{counted(node[names.COUNT], 'object')} transferred"
 
     def draw(self, context):
         layout = self.layout

@@ -3,6 +3,7 @@
 import bpy
 
 from ..geoanalogy.blender import names
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.tree.evaluating import evaluations
 from ..geoanalogy.blender.tree.new_nodes import KINDS
 from ..geoanalogy.blender.tree.node_tree import ICONS
@@ -58,7 +59,7 @@ class GEOANALOGY_PT_tree(bpy.types.Panel):
         if builds(tree):
             layout.prop(tree, "merged")
         seconds = sum(float(node.get(names.SECONDS, 0.0)) for node in tree.nodes)
-        layout.label(text=f"{len(tree.nodes)} operations, {seconds:.2f} s", icon="TIME")
+        layout.label(text=f"{counted(len(tree.nodes), 'operation')}, {seconds:.2f} s", icon="TIME")
         if builds(tree):
             layout.label(text=f"{evaluations.hit_rate:.0%} of all surfaces were known", icon="COPYDOWN")
         row = layout.row(align=True)

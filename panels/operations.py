@@ -3,6 +3,7 @@
 import bpy
 
 from ..geoanalogy.blender import names
+from ..geoanalogy.blender.counting import counted
 from ..geoanalogy.blender.tree.evaluating import parcels_of
 from ..geoanalogy.blender.tree.node_tree import ICONS
 from ..geoanalogy.blender.tree.sharing import sharers
@@ -83,7 +84,7 @@ class GEOANALOGY_PT_operations(SidebarPanel, bpy.types.Panel):
         row.operator("geoanalogy.apply", text="To Selected").parcels = "SELECTED"
         parcels = parcels_of(tree)
         if parcels:
-            hint(layout, f"Applied to {len(parcels)} parcels only")
+            hint(layout, f"Applied to {counted(len(parcels), 'parcel')} only")
         if builds(tree):
             layout.prop(tree, "merged")
         layout.operator("geoanalogy.make_real", icon="OBJECT_DATA")

@@ -9,6 +9,7 @@ import bpy
 from ...errors import InputError
 from ...progress import Stepper, run, within
 from .. import names, register
+from ..counting import counted
 from ..regions.recording import replayed_steps, write_replayed
 from ..writing.picture import draw_picture
 from ..writing.saving import save_copy
@@ -44,7 +45,9 @@ class Report:
     def text(self) -> str:
         """What to tell the user."""
         solids = f", {self.masses} solids and outlines" if self.masses else ""
-        return told(f"{self.operations} operations, {self.objects} results{solids}", self.problems)
+        return told(
+            f"{counted(self.operations, 'operation')}, {counted(self.objects, 'result')}{solids}", self.problems
+        )
 
 
 def replay_steps(

@@ -13,6 +13,7 @@ from ...operations.layout import Layout
 from ...operations.node import Node
 from ...progress import Stepper, run, within
 from .. import names
+from ..counting import counted
 from ..reading.identity import keep_ids
 from ..writing.instances import arrange_collections, clear_results, collection_of, is_instance
 from ..writing.masses import write_masses
@@ -43,7 +44,7 @@ class Shown:
     def text(self) -> str:
         """What to tell the user."""
         solids = f", {self.masses} solids and outlines" if self.masses else ""
-        return told(f"{self.objects} objects{solids}", self.problems)
+        return told(f"{counted(self.objects, 'object')}{solids}", self.problems)
 
 
 def told(done: str, problems: Sequence[str]) -> str:
