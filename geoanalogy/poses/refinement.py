@@ -25,10 +25,6 @@ ITERATIONS = 6
 #: What candidates are worth where they begin says nothing: the best may begin three half-widths from its maximum.
 KEPT = {1: (20, 0.35), 2: (16, 0.4), 3: (12, 0.4)}
 
-#: From this iteration on candidates of different senses at one place count as the same: before, the one that is worth
-#: less there may still become the better one.
-ACROSS_SENSES = 2
-
 #: How far into what the object may not be in candidates may be, in half-widths of level sets: at first, and once the
 #: last have been dropped.
 SLACK_AT_FIRST = 2.0
@@ -57,7 +53,7 @@ FALL = 0.7
 #: and how far, in half-widths. Where samples disagree the importance has plateaus with narrow peaks; least squares
 #: settle anywhere on them. And the iterations that follow.
 PROBED = 4
-PROBES = (0.15, 0.4, 1.0, 2.0)
+PROBES = (0.15, 0.4, 1.0, 1.5, 2.0)
 AGAIN = range(2, ITERATIONS + 1)
 
 #: Leading poses of an arrangement, for each of its senses and scales, that go on uphill along position and direction,
@@ -146,7 +142,7 @@ def _descend(batch: Batch, poses: Refined, iterations: range, rivals: Rivals | N
         position = np.where(fell, best.position, position) + step[:, :2]
         angle = np.where(fell[:, 0], best.angle, angle) + step[:, 2]
         if iteration in KEPT and rivals is not None:
-            kept = rivals.leading(best, *KEPT[iteration], across=iteration >= ACROSS_SENSES)
+            kept = rivals.leading(best, *KEPT[iteration])
             if iteration == max(KEPT):
                 best, kept = _freed(near, own, best, kept, rivals)
                 moved = best.value < 0

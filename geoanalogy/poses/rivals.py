@@ -228,7 +228,7 @@ class Rivals:
         top = self._best(poses.of(stands), value[stands])
         return np.flatnonzero(stands | (value > top[self._arrangement[poses.which]]))
 
-    def leading(self, poses: Refined, most: int, share: float, across: bool) -> Indices:
+    def leading(self, poses: Refined, most: int, share: float) -> Indices:
         """The best candidates of each arrangement, one per maximum.
 
         Parameters
@@ -238,8 +238,6 @@ class Rivals:
             Number kept of an arrangement of which PER_PARENT results are wanted, times that of its senses and scales.
         share : float
             Of the arrangement's best value, below which none are kept.
-        across : bool
-            Whether candidates of different senses and scales at one place are the same as well.
 
         Returns
         -------
@@ -260,8 +258,8 @@ class Rivals:
         for coordinate in (*(poses.position[good] / unit[:, :2]).T, *facing.T):
             place = coordinate[table]
             near &= np.abs(place[:, :, None] - place[:, None]) < SAME_MAXIMUM
-        if not across:
-            near &= which[table][:, :, None] == which[table][:, None]
+        # Of two senses or scales at one place, the one that is worth less may still become the better one.
+        near &= which[table][:, :, None] == which[table][:, None]
         alone = ~np.tril(near, -1).any(axis=2) & (table >= 0)
         room = self._arrangement[which[table[:, 0]]]
         wanted = most * self._candidates / PER_PARENT * self._ways[room]

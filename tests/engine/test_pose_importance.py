@@ -312,8 +312,7 @@ def test_candidates_that_cannot_stand_are_left_out_unless_they_promise_most(prom
     assert Rivals([importance], batch, np.ones(1)).standing(poses, 2.0).tolist() == [0, 1, 2]
 
 
-@pytest.mark.parametrize(("across", "left"), [(False, [0, 1, 3]), (True, [0, 3])])
-def test_of_candidates_at_one_place_the_best_is_kept(across, left):
+def test_of_candidates_of_one_sense_at_one_place_the_best_is_kept():
     """The second is in the other sense, the third too low, the fourth elsewhere, the last one beside it."""
     scene = scene_of(BEDROOM)
     mirrored = Sense(True, (Symmetry.ACROSS,))
@@ -322,7 +321,7 @@ def test_of_candidates_at_one_place_the_best_is_kept(across, left):
     x = np.array([1, 1 + 0.05 * both[0].width, 2, 3, 3 + 0.05 * both[0].width])
     poses = Refined(np.array([0, 1, 1, 1, 1]), np.column_stack([x, np.ones(5)]), np.zeros(5), np.zeros(5))
     poses = dataclasses.replace(poses, value=np.array([0.9, 0.8, 0.1, 0.7, 0.6]))
-    assert rivals.leading(poses, 24, 0.25, across).tolist() == left
+    assert rivals.leading(poses, 24, 0.25).tolist() == [0, 1, 3]
     assert rivals.in_turn(poses, 1).tolist() == [[0, 1, -1, -1, -1]]
 
 
@@ -331,9 +330,9 @@ def test_the_example_does_not_outshine_the_other_places_of_its_room():
     batch = Batch([importance])
     poses = Refined(np.zeros(3, dtype=np.intp), np.array([(1.0, 1), (2, 1), (3, 1)]), np.zeros(3), np.ones(3))
     poses = dataclasses.replace(poses, value=np.array([1.0, 0.3, 0.1]))
-    assert Rivals([importance], batch, np.ones(1)).leading(poses, 12, 0.4, True).tolist() == [0]
+    assert Rivals([importance], batch, np.ones(1)).leading(poses, 12, 0.4).tolist() == [0]
     rivals = Rivals([importance], batch, np.ones(1), is_example=lambda _, poses: poses.value == 1.0)
-    assert rivals.leading(poses, 12, 0.4, True).tolist() == [1]
+    assert rivals.leading(poses, 12, 0.4).tolist() == [1]
 
 
 def test_an_example_that_nothing_holds_is_worth_nothing():
