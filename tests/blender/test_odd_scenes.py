@@ -216,3 +216,21 @@ def test_a_scaled_example_is_repeated_as_it_is():
     found = matrices()
     assert found[:, :3, 3] == pytest.approx(EXPECTED, abs=1e-3)
     assert [np.linalg.norm(m[:3, :3], axis=0) for m in found] == [pytest.approx((2.0, 2.0, 1.0), abs=1e-4)] * 2
+
+
+def test_a_plan_inside_a_collection_instance_is_told_and_used_once_it_is_real():
+    made = rooms(2)
+    flat = bpy.data.collections.new("Flat")
+    for item in made:
+        bpy.context.scene.collection.objects.unlink(item)
+        flat.objects.link(item)
+    instance = link(bpy.data.objects.new("Linked Flat", None))
+    instance.instance_type, instance.instance_collection = "COLLECTION", flat
+    bed()
+    with pytest.raises(RuntimeError, match="the plan is inside the collection instance 'Linked Flat', where nothing"):
+        propagate()
+    activate(instance)
+    bpy.ops.object.duplicates_make_real()
+    activate(bpy.data.objects["Bed"])
+    propagate()
+    assert len(results()) == 1

@@ -20,6 +20,7 @@ from .. import names
 from ..holders import holder_with
 from .footprints import footprint_ring_of
 from .identity import ids_of
+from .instanced import why_nothing_is_drawn
 from .planes import SAME_PLANE_ASIDE, Plane, best_plane, extent
 from .shapes import KINDS, Ring, has_labelled_faces, labelled_faces, rings_of
 
@@ -203,9 +204,7 @@ def read_grounds(
         if flat is None and name in labels:
             solid.append(item)
     if not drawn:
-        raise InputError(
-            "the scene has no labelled outlines; label the plan's meshes, curves or strokes in step 1, or import a plan"
-        )
+        raise InputError(why_nothing_is_drawn(scene))
     layers: list[_Layer] = []
     for flat in sorted(drawn, key=lambda d: (-d.size, d.id_in(ids))):
         layer = next((one for one in layers if _lies_on(flat, one)), None)
