@@ -1,7 +1,7 @@
 """Probabilistic pose placement: importance as a distribution that poses are drawn from (section 4.8)."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
@@ -221,7 +221,10 @@ class ScatterModel:
         order = drawable[np.argsort(clock[drawable] / weight[drawable], kind="stable")]
         angle = turn if self.options.directions == "random" else field.angle
         wanted = self.options.number_in(target.parent.area)
-        standing = [self.model.pose.position] if target.is_at(self._source) else []
+        # Squares as wide as the largest distance that is asked for: what is too near stands in one of nine.
+        standing = _Squares(self.spacing * float(field.scale[order].max(initial=0.0)))
+        if target.is_at(self._source):
+            standing.add(self.model.pose.position)
         kept: list[PropagatedPose] = []
         for first in range(0, len(order), BATCH):
             batch = order[first : first + BATCH]
@@ -230,11 +233,11 @@ class ScatterModel:
             for cell, place in zip(batch[accepted], places[accepted], strict=True):
                 if len(kept) >= wanted:
                     return kept
-                if all(math.dist(place, other) >= self.spacing * field.scale[cell] for other in standing):
+                if standing.is_free(place, self.spacing * field.scale[cell]):
                     pose = Pose((place[0], place[1]), angle[cell] % (2 * np.pi), bool(field.mirrored[cell]))
                     importance = min(1.0, float(field.importance[cell]))
                     kept.append(PropagatedPose(pose, importance, target.parent, float(field.scale[cell])))
-                    standing.append(pose.position)
+                    standing.add(pose.position)
         return kept
 
     def _accepted(
@@ -277,3 +280,25 @@ class ScatterModel:
             return cls(PoseModel.from_dict(plain["model"]), ScatterOptions.from_dict(plain["options"]))
         except (KeyError, TypeError) as error:
             raise InputError(f"the stored scatter lacks or garbles {error}; record the operation again") from error
+
+
+class _Squares:
+    """Places in squares of a grid, so that those near another place are found without looking at all."""
+
+    def __init__(self, side: float) -> None:
+        self._side = side
+        self._places: dict[tuple[int, int], list[Sequence[float]]] = {}
+
+    def _square(self, place: Sequence[float]) -> tuple[int, int]:
+        return (math.floor(place[0] / self._side), math.floor(place[1] / self._side)) if self._side else (0, 0)
+
+    def add(self, place: Sequence[float]) -> None:
+        self._places.setdefault(self._square(place), []).append(place)
+
+    def is_free(self, place: Sequence[float], distance: float) -> bool:
+        """Whether nothing stands nearer than a distance, which is at most the side of a square."""
+        if distance <= 0:
+            return True
+        x, y = self._square(place)
+        near = (self._places.get((x + i, y + j), ()) for i in (-1, 0, 1) for j in (-1, 0, 1))
+        return all(math.dist(place, other) >= distance for square in near for other in square)
