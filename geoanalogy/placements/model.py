@@ -16,6 +16,7 @@ from ..geometry.scene import Scene
 from ..progress import Progress, Stepper, run
 from ..tolerances import PARALLEL_ANGLE
 from .arrangement import Arrangement, arrangement_of
+from .doubles import without_doubles
 from .examples import Example, Orientation, checked, nearest_directions, orientation_of, parents_of
 from .lesson import Lesson
 from .options import PlacementOptions
@@ -182,6 +183,7 @@ class PlacementModel:
                 boxes, similar, score = with_twins(self.lesson, arrangement, positive, boxes, similar, score)
                 still = without_overlaps(boxes, score, drawn, self.options.allow_overlaps)
                 still = still[score[still] >= least]
+                still = still[without_doubles(self.lesson, arrangement, boxes[still], drawn)]
                 boxes, similar, score = boxes[still], similar[still], score[still]
             why = cache(partial(self._reasons, arrangement, boxes))
             for k, (box, alike) in enumerate(zip(boxes, similar, strict=True)):
