@@ -169,9 +169,8 @@ class Answering:
         targets, number = arrangements_of(importances)
         mirrored = np.array([i.mirrored for i in importances], dtype=bool)[poses.which]
         scale = np.array([i.scale for i in importances])[poses.which]
-        width = np.array([i.width for i in importances])[poses.which]
-        target = number[poses.which]
-        return ~self._validation.hopeless(targets, target, poses.position, poses.angle, mirrored, scale, slack * width)
+        target, slack = number[poses.which], slack * self._query.width
+        return ~self._validation.hopeless(targets, target, poses.position, poses.angle, mirrored, scale, slack)
 
     def ranked(self, found: Sequence[PropagatedPose]) -> list[PropagatedPose]:
         """Best first; of equals, the object as it is before its mirror image, the least turned one first.

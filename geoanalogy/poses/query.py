@@ -200,12 +200,12 @@ class Query:
     def _inside(self, seen: Observation) -> NDArray[np.bool_]:
         """Whether samples count as inside polygons, for section 4.4; shape (polygons, samples).
 
-        All of them are inside the parent: of an object at a wall some lie a rounding error, or what a hand slips, to
-        either side of it. Those on the boundary of a member are inside that.
+        Of an object whose centre is inside the parent all are: those at a wall lie a rounding error, or what a hand
+        slips, to either side of it. Those on a boundary are inside.
         """
         size = np.array([p.size for p in seen.elements.polygons])
         inside: NDArray[np.bool_] = seen.inside | (seen.boundary.distance <= ON_BOUNDARY * size[:, None])
-        inside[0] = True
+        inside[0] |= inside[0, 0]
         return inside
 
 

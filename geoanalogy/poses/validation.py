@@ -24,6 +24,9 @@ JUTTING_SHARE = 0.03
 #: Share of the footprint's width and height that is left at the least where a margin is taken off all around it.
 LEAST_CORE = 0.1
 
+#: Share of its box that a footprint fills which is taken for that box.
+BOX_SHARE = 0.99
+
 
 class Validation:
     """What poses of an object may intersect: the labels that the example intersects, and no others.
@@ -49,6 +52,7 @@ class Validation:
         #: The last slack and what it blocks: the same in all senses.
         self._blocked: WeakKeyDictionary[Fields, tuple[float, NDArray[np.bool_]]] = WeakKeyDictionary()
         self._trees: WeakKeyDictionary[Arrangement, shapely.STRtree] = WeakKeyDictionary()
+        self._cores: dict[float, tuple[Array, float]] = {}
 
     @cached_property
     def _at_example(self) -> tuple[float, frozenset[str]]:
@@ -164,7 +168,7 @@ class Validation:
         angle: Array,
         mirrored: NDArray[np.bool_],
         scale: Array,
-        slack: Array,
+        slack: float,
     ) -> NDArray[np.bool_]:
         """Which poses would have to move further than `slack` to be accepted.
 
@@ -178,8 +182,8 @@ class Validation:
         mirrored : ndarray of shape (m,), bool
         scale : ndarray of shape (m,)
             Of the footprint.
-        slack : ndarray of shape (m,)
-            Scene units.
+        slack : float
+            Scene units, for an object of scale 1: larger ones may move further.
 
         Returns
         -------
@@ -188,13 +192,10 @@ class Validation:
         hopeless = np.zeros(len(angle), dtype=bool)
         if self._footprint is None or not self._options.validate or not len(angle):
             return hopeless
-        # The object without a margin all around: what that still hits is hit so deeply.
-        low, high = self._footprint.min(axis=0), self._footprint.max(axis=0)
-        middle, extent = (low + high) / 2, (high - low) / 2
-        core = np.maximum(1 - (slack / scale)[:, None] / extent, LEAST_CORE)[:, None]
-        # Of an object that is thinner than that the rest is added to the room: it may begin inside a wall.
-        rest = np.maximum(0.0, slack - (1 - LEAST_CORE) * scale * extent.min())
-        outlines = outlines_at(middle + core * (self._footprint - middle), position, angle, mirrored, scale)
+        core, left = self._core(slack)
+        # What the object is too thin for is added to the room and taken off the obstacles: it may begin in a wall.
+        rest = left * scale
+        outlines = outlines_at(core, position, angle, mirrored, scale)
         first = run_starts(which).tolist()
         for start, end in zip(first, [*first[1:], len(which)], strict=True):
             target = targets[which[start]]
@@ -203,8 +204,41 @@ class Validation:
                 room = target.parent.shape.buffer(off, join_style="mitre") if off else target.parent.shape
                 shapely.prepare(room)
                 hopeless[start:end] = ~shapely.covers(room, there)
-            hopeless[start + self._tree(target).query(there, predicate="intersects")[0]] = True
+            pose, hit = self._tree(target).query(there, predicate="intersects")
+            if off:
+                deep = shapely.buffer(self._tree(target).geometries, -off, join_style="mitre")
+                pose = pose[shapely.intersects(deep[hit], there[pose])]
+            hopeless[start + pose] = True
         return hopeless
+
+    def _core(self, slack: float) -> tuple[Array, float]:
+        """The object without a margin all around: what that still hits is hit so deeply.
+
+        Returns
+        -------
+        core : ndarray of shape (k, 2)
+            Ring in the pose's frame, at scale 1.
+        left : float
+            How much of the slack the object is too thin for.
+        """
+        known = self._cores.get(slack)
+        if known is not None:
+            return known
+        assert self._footprint is not None
+        low, high = self._footprint.min(axis=0), self._footprint.max(axis=0)
+        outline = shapely.Polygon(self._footprint)
+        if outline.area >= BOX_SHARE * float(np.prod(high - low)):
+            middle, extent = (low + high) / 2, (high - low) / 2
+            margin = min(slack, (1 - LEAST_CORE) * float(extent.min()))
+            core = middle + np.maximum(1 - slack / extent, LEAST_CORE) * (self._footprint - middle)
+        else:
+            # One that is no box may have a notch, in which others can stand.
+            margin = slack
+            while (eroded := outline.buffer(-margin, join_style="mitre")).is_empty:
+                margin /= 2
+            core = shapely.get_coordinates(max(shapely.get_parts(eroded), key=shapely.area).exterior)[:-1]
+        known = self._cores[slack] = core, slack - margin
+        return known
 
     def _tree(self, target: Arrangement) -> shapely.STRtree:
         """The obstacles of an arrangement."""

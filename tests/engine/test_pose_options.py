@@ -264,7 +264,7 @@ def test_a_pose_is_hopeless_that_hits_something_deeper_than_it_may_move(away, ex
     validation = Validation(target, model.pose, BED, model.options)
     at_wardrobe, at_wall = (4 + away, 1.0), (3.0, 0.8 - away)
     places = np.array([at_wardrobe, at_wall])
-    poses = (np.zeros(2, dtype=np.intp), places, np.zeros(2), np.zeros(2, dtype=bool), np.ones(2), np.full(2, 0.4))
+    poses = (np.zeros(2, dtype=np.intp), places, np.zeros(2), np.zeros(2, dtype=bool), np.ones(2), 0.4)
     assert validation.hopeless([target], *poses).tolist() == [expected, expected]
     free = Validation(target, model.pose, BED, dataclasses.replace(model.options, validate=False))
     assert not free.hopeless([target], *poses).any()
@@ -272,15 +272,30 @@ def test_a_pose_is_hopeless_that_hits_something_deeper_than_it_may_move(away, ex
 
 @pytest.mark.parametrize(("away", "expected"), [(0.0, False), (0.3, False), (0.5, True)])
 def test_a_thin_object_may_move_out_of_a_wall_by_more_than_its_depth(away, expected):
-    """A shelf 0.2 deep that is `away` deep in a wall, and may move by 0.4."""
+    """A shelf 0.2 deep that is `away` deep in a wall, or in a wardrobe, and may move by 0.4."""
     shelf = rectangle(1, 0.2, (-0.5, -0.1))
-    scene = Scene([Polygon(rectangle(8, 6), "room", "r")])
+    scene = Scene([Polygon(rectangle(8, 6), "room", "r"), Polygon(rectangle(2, 2, (5, 0)), "wardrobe", parent="r")])
     model = learn_pose(scene, Pose((1.5, 3)), shelf, PoseOptions())
     target = arrangement_of(scene, scene.polygon("r"))
     validation = Validation(target, model.pose, shelf, model.options)
-    at_wall = np.array([(3.0, 0.1 - away)])
-    poses = (np.zeros(1, dtype=np.intp), at_wall, np.zeros(1), np.zeros(1, dtype=bool), np.ones(1), np.full(1, 0.4))
-    assert validation.hopeless([target], *poses).tolist() == [expected]
+    places = np.array([(3.0, 0.1 - away), (6.0, 2.1 - away)])
+    poses = (np.zeros(2, dtype=np.intp), places, np.zeros(2), np.zeros(2, dtype=bool), np.ones(2), 0.4)
+    assert validation.hopeless([target], *poses).tolist() == [expected, expected]
+
+
+@pytest.mark.parametrize("slack", [0.05, 0.2, 0.6])
+def test_what_stands_in_a_notch_is_not_hit(slack):
+    """A U with a column between its arms, which are 0.3 wide; moved by 0.35 an arm is on the column."""
+    desk = ring((-0.8, -0.5), (0.8, -0.5), (0.8, 0.5), (0.5, 0.5), (0.5, -0.2), (-0.5, -0.2), (-0.5, 0.5), (-0.8, 0.5))
+    scene = Scene(
+        [Polygon(rectangle(8, 6), "room", "r"), Polygon(rectangle(0.6, 0.6, (3.7, 2.9)), "column", parent="r")]
+    )
+    model = learn_pose(scene, Pose((1.5, 3)), desk, PoseOptions())
+    target = arrangement_of(scene, scene.polygon("r"))
+    validation = Validation(target, model.pose, desk, model.options)
+    places = np.array([(4.0, 3.0), (4.35, 3.0)])
+    poses = (np.zeros(2, dtype=np.intp), places, np.zeros(2), np.zeros(2, dtype=bool), np.ones(2), slack)
+    assert validation.hopeless([target], *poses).tolist() == [False, slack < 0.1]
 
 
 def test_poses_in_several_rooms_are_hopeless_or_not_each_in_its_own():
@@ -292,7 +307,7 @@ def test_poses_in_several_rooms_are_hopeless_or_not_each_in_its_own():
     validation = Validation(targets[0], model.pose, BED, model.options)
     which, x = np.array([0, 0, 0, 1, 1]), np.array([6.0, 6, 6, 16, 12])
     mirrored, scale = np.array([False, True, False, False, True]), np.array([1.0, 1, 2, 1, 1])
-    poses = (which, np.column_stack([x, np.full(5, 1.0)]), np.zeros(5), mirrored, scale, np.full(5, 0.1))
+    poses = (which, np.column_stack([x, np.full(5, 1.0)]), np.zeros(5), mirrored, scale, 0.1)
     assert validation.hopeless(targets, *poses).tolist() == [False, False, True, True, False]
 
 
