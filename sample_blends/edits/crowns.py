@@ -10,6 +10,8 @@ from .edit import AnyEdit, ArrayEdit, Edit
 #: A crown has many answers to one gem.
 FIXED = {"scale": "fixed", "candidates": 30}
 MIRRORED = {**FIXED, "mirror": True}
+#: No two in one hollow.
+APART = {**FIXED, "spacing": 0.03}
 
 _ROYAL, _DUCAL = crown("royal crown"), crown("ducal crown")
 #: The third peak of the royal crown, and the middle of the hollow to its left.
@@ -27,11 +29,11 @@ def near(label: str, **options: object) -> dict[str, object]:
 
 
 EDITS: list[AnyEdit] = [
-    Edit("fleur-de-lis", (PEAK, 0.090, UP), threshold=0.2, options=FIXED),
+    Edit("fleur-de-lis", (PEAK, 0.090, UP), threshold=0.25, options=FIXED),
     Edit("ruby", (PEAK, 0.052, UP), threshold=0.6, options=FIXED),
     Edit("diamond", (PEAK + 0.021, 0.050, UP), threshold=0.5, options=MIRRORED),
-    Edit("pearl", (PEAK, 0.1120, UP), threshold=0.5, options=near("ornament")),
-    Edit("emerald", (HOLLOW, 0.047, UP), threshold=0.5, options=FIXED),
-    Edit("emerald", (LOW_ARCH, _DUCAL.origin[1] + 0.054, UP), threshold=0.5, options=FIXED),
+    Edit("pearl", (PEAK, 0.1115, UP), threshold=0.5, options=near("ornament")),
+    Edit("emerald", (HOLLOW, 0.047, UP), threshold=0.5, options=APART),
+    Edit("emerald", (LOW_ARCH, _DUCAL.origin[1] + 0.054, UP), threshold=0.5, options=APART),
     ArrayEdit("pearl", (0.0064, 0.0064, UP), (_ROYAL.length - 0.0064, 0.0064, UP), 0.0104, FIXED, {"way": "left"}),
 ]
