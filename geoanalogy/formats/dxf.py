@@ -45,6 +45,8 @@ _DEEPEST_BLOCK = 32
 #: Cubics per span of a spline; of one that is cubic itself each is exact.
 _SPAN_PARTS = 4
 _INSIDE = 1e-9
+#: Radians by which an ellipse may miss a full turn and is closed all the same: files write as few as six digits.
+_FULL_TURN = 1e-4
 
 
 @dataclass(frozen=True)
@@ -124,7 +126,11 @@ def _strokes(drawing: Drawing, file: str, by_block: bool) -> Iterator[_Stroke]:
         layer = place.layer if entity.layer == "0" and place.layer else entity.layer
         handle = "-".join(filter(None, (place.handle, entity.text(5).strip())))
         where = f"{entity.kind} {handle or f'number {drawn}'} on layer {layer!r}"
-        if layer in drawing.hidden_layers or entity.text(67).strip() == "1" or entity.text(60).strip() == "1":
+        if (
+            layer.casefold() in drawing.hidden_layers
+            or entity.text(67).strip() == "1"
+            or entity.text(60).strip() == "1"
+        ):
             continue
         try:
             if entity.kind == "INSERT":
@@ -153,11 +159,12 @@ def _strokes(drawing: Drawing, file: str, by_block: bool) -> Iterator[_Stroke]:
 def _inserted(entity: Entity, drawing: Drawing, place: _Place, layer: str, handle: str) -> list[tuple[Entity, _Place]]:
     """The entities of an inserted block, each with its place; rows and columns repeat the block."""
     name = entity.text(2)
-    if name not in drawing.blocks:
+    if name.casefold() not in drawing.blocks:
         raise ValueError(f"it inserts the block {name!r}, which the file does not hold")
     if place.depth >= _DEEPEST_BLOCK:
         raise InputError(f"the block {name!r} inserts itself; explode it")
-    block, entities = drawing.blocks[name]
+    block, entities = drawing.blocks[name.casefold()]
+    name = block.text(2)
     angle = np.radians(entity.number(50))
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     linear = turn * [entity.number(41, 1.0), entity.number(42, 1.0)]
@@ -245,7 +252,7 @@ def _ellipse(entity: Entity) -> tuple[Run, bool]:
     minor = np.array([-major[1], major[0]]) * ratio * (-1 if entity.number(230, 1.0) < 0 else 1)
     start, end = entity.number(41), entity.number(42, 2 * np.pi)
     sweep = (end - start) % (2 * np.pi)
-    closed = min(sweep, 2 * np.pi - sweep) < 1e-6
+    closed = min(sweep, 2 * np.pi - sweep) < _FULL_TURN
     centre = [entity.number(10), entity.number(20)]
     return elliptic_arc(centre, major, minor, start, start + (2 * np.pi if closed else sweep)), closed
 

@@ -100,9 +100,9 @@ class Drawing:
     header : dict
         The first value of each variable: ``header["$INSUNITS"]``.
     hidden_layers : set of str
-        Layers that are off or frozen.
+        Layers that are off or frozen, in small letters: names count whatever the case of their letters.
     blocks : dict
-        Name to the block's BLOCK entity and its entities.
+        Name in small letters to the block's BLOCK entity and its entities.
     entities : list of Entity
     """
 
@@ -180,7 +180,7 @@ def parse(content: bytes, file: str) -> Drawing:
         elif section == "TABLES" and entity.kind == "LAYER":
             _note_layer(entity, drawing, file)
         elif section == "BLOCKS" and entity.kind == "BLOCK":
-            block = drawing.blocks.setdefault(entity.text(2), (entity, []))[1]
+            block = drawing.blocks.setdefault(entity.text(2).casefold(), (entity, []))[1]
         elif section == "BLOCKS" and entity.kind == "ENDBLK":
             block = None
         elif section == "BLOCKS" and block is not None:
@@ -228,7 +228,7 @@ def _spelled(text: str) -> str:
 def _note_layer(entity: Entity, drawing: Drawing, file: str) -> None:
     try:
         if int(entity.number(70)) & 1 or entity.number(62) < 0:
-            drawing.hidden_layers.add(entity.text(2))
+            drawing.hidden_layers.add(entity.text(2).casefold())
     except (ValueError, OverflowError) as error:
         raise InputError(f"{file}, layer {entity.text(2)!r}: {error}; export it again") from None
 

@@ -36,6 +36,7 @@ _DEGREES = (
 _LARGEST_ANGLE = 100.0
 _AREAS = ("Polygon", "MultiPolygon")
 _OTHER = ("Point", "MultiPoint", "LineString", "MultiLineString")
+_COLLECTION = "GeometryCollection"
 
 
 def read(content: bytes, file: str, label: str | None = None, rules: Sequence[Rule] = ()) -> list[Outline]:
@@ -73,7 +74,7 @@ def read(content: bytes, file: str, label: str | None = None, rules: Sequence[Ru
         where = f"line {error.lineno}: {error.msg}" if isinstance(error, json.JSONDecodeError) else ""
         reason = where or "it has a number of thousands of digits"
         raise InputError(f"{file} is not valid JSON ({reason}); it may be cut off, export it again") from None
-    if not isinstance(data, dict) or data.get("type") not in ("FeatureCollection", "Feature", *_AREAS):
+    if not isinstance(data, dict) or data.get("type") not in ("FeatureCollection", "Feature", *_AREAS, _COLLECTION):
         raise InputError(f"{file} is no GeoJSON of polygons; give a FeatureCollection of Polygon features")
     _check_schema(data, file)
     _check_crs(data, file)
@@ -123,23 +124,24 @@ def _feature(feature: Any, where: str, file: str, label: str | None, rules: Sequ
         raise InputError(f"{file}, {where}: it is no Feature; a FeatureCollection holds Feature objects")
     given = feature.get("properties")
     properties = given if isinstance(given, dict) else {}
-    id = properties.get("id", feature.get("id"))
+    # Databases write null for what a feature lacks: the next place counts then.
+    id = _first_given(properties.get("id"), feature.get("id"))
     if id is not None:
         where = f"{where} (id {_short(id)})"
     if given is not None and not isinstance(given, dict):
         raise InputError(f"{file}, {where}: its properties are {_short(given)}; give an object or null")
     text = {
         "id": id,
-        "label": properties.get(label or "label", properties.get("label")),
+        "label": _first_given(properties.get(label or "label"), properties.get("label")),
         "parent": properties.get("parent"),
     }
     for name, value in text.items():
-        if value is not None and (not isinstance(value, str | int | float) or isinstance(value, bool)):
+        if value is not None and not (isinstance(value, str) or _is_number(value)):
             raise InputError(f"{file}, {where}: its {name} is {_short(value)}; give a text")
     shared = {name: value if value is None else str(value) for name, value in text.items()}
     shared["label"] = shared["label"] or label_by(rules, properties)
     orientation = properties.get("orientation")
-    if orientation is not None and (not isinstance(orientation, int | float) or abs(orientation) > _LARGEST_ANGLE):
+    if orientation is not None and not (_is_number(orientation) and abs(orientation) <= _LARGEST_ANGLE):
         raise InputError(f"{file}, {where}: its orientation is {_short(orientation)}; give an angle in radians")
     geometry = feature.get("geometry")
     parts = list(_parts(geometry, where, file))
@@ -158,6 +160,14 @@ def _feature(feature: Any, where: str, file: str, label: str | None, rules: Sequ
         )
 
 
+def _first_given(first: Any, other: Any) -> Any:
+    return other if first is None else first
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
 def _is_labels(value: Any) -> bool:
     return isinstance(value, list) and all(v is None or isinstance(v, str) for v in value)
 
@@ -170,13 +180,15 @@ def _parts(geometry: Any, where: str, file: str) -> Iterator[list[Points]]:
         if geometry is None:
             continue
         kind = geometry.get("type") if isinstance(geometry, dict) else None
-        if kind == "GeometryCollection":
+        if kind == _COLLECTION:
             members = geometry.get("geometries")
             if not isinstance(members, list):
                 raise InputError(f"{file}, {where}: its GeometryCollection has no list of geometries")
             waiting += members[::-1]
         elif kind in _AREAS:
             parts = geometry.get("coordinates")
+            if parts == []:
+                continue  # the format's own way to say that there is nothing
             for rings in [parts] if kind == "Polygon" else parts if isinstance(parts, list) else [parts]:
                 if not isinstance(rings, list) or not rings:
                     raise InputError(f"{file}, {where}: its {kind} has no rings; give an outline of x, y pairs")
@@ -187,10 +199,7 @@ def _parts(geometry: Any, where: str, file: str) -> Iterator[list[Points]]:
 
 def _ring(ring: Any, name: str, where: str, file: str) -> Points:
     if not isinstance(ring, list) or not all(
-        isinstance(place, list)
-        and len(place) >= 2
-        and all(isinstance(v, int | float) and not isinstance(v, bool) for v in place[:2])
-        for place in ring
+        isinstance(place, list) and len(place) >= 2 and all(_is_number(v) for v in place[:2]) for place in ring
     ):
         raise InputError(f"{file}, {where}: {name} is no list of x, y pairs of numbers; correct its coordinates")
     try:

@@ -27,12 +27,14 @@ _DEEPEST_USE = 32
 
 _CONTAINERS = {"svg", "g", "a", "switch"}
 _SHAPES = {"path", "rect", "circle", "ellipse", "polygon", "polyline", "line"}
+_DRAWN = _CONTAINERS | _SHAPES | {"use"}
+_CONDITIONS = ("requiredExtensions", "systemLanguage")
 _SVG = "{http://www.w3.org/2000/svg}"
 _INKSCAPE_LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
 _LINKS = ("href", "{http://www.w3.org/1999/xlink}href")
 #: Names that drawing programs make up: they say nothing.
 _MADE_UP = re.compile(
-    r"(svg|g|layer|path|rect|circle|ellipse|polygon|polyline|line|use|group|clone|image|cls|st|fil)?[-_ ]?\d*",
+    r"(svg|g|layer|path|rect|circle|ellipse|polygon|polyline|line|use|group|clone|image|cls|st|fil)?[-_ \d]*",
     re.IGNORECASE,
 )
 #: Ids are unique: programs number those that a designer repeats.
@@ -159,7 +161,7 @@ def _shapes(content: bytes, file: str) -> Iterator[_Shape]:
             raise InputError(f"{file} draws more than {_MOST_ELEMENTS} elements; export less of the drawing")
         where = f"{tag} {attributes['id']!r}" if "id" in attributes else f"{tag} number {drawn[tag]}"
         style = sheet.style(tag, attributes, context.style)
-        if style.hidden or (tag not in _CONTAINERS and tag not in _SHAPES and tag != "use"):
+        if style.gone or (style.hidden and tag in _SHAPES) or tag not in _DRAWN:
             continue
         try:
             own = matrix(attributes.get("transform"))
@@ -170,7 +172,7 @@ def _shapes(content: bytes, file: str) -> Iterator[_Shape]:
             if tag == "use":
                 children, inner = _used(attributes, by_id, context, where, file)
             else:
-                children = list(element)
+                children = _chosen(element) if tag == "switch" else list(element)
                 nested = tag == "svg" and element is not root
                 inner = fit(attributes, context.viewport) if nested else (np.eye(3), context.viewport)
         except ValueError as error:
@@ -231,6 +233,13 @@ def _used(
     size = {name: attributes[name] for name in ("width", "height") if name in attributes}
     step, viewport = fit({**target.attrib, **size, "x": "0", "y": "0"}, context.viewport)
     return list(target), (place @ step, viewport)
+
+
+def _chosen(switch: ElementTree.Element) -> list[ElementTree.Element]:
+    """The one child that a switch shows: the first that asks for nothing, else the first of all."""
+    drawn = [child for child in switch if _tag(child) in _DRAWN]
+    free = [child for child in drawn if not any(name in child.attrib for name in _CONDITIONS)]
+    return (free or drawn)[:1]
 
 
 def _strokes(tag: str, attributes: Mapping[str, str], viewport: Viewport) -> list[SubPath]:

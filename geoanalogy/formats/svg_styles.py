@@ -16,12 +16,15 @@ class Style:
 
     Attributes
     ----------
+    gone : bool
+        Whether neither it nor anything in it is shown.
     hidden : bool
-        Whether it is not shown.
+        Whether it is not shown; what is in it may say otherwise.
     filled : bool
         Whether its shapes are areas; unfilled ones are lines.
     """
 
+    gone: bool = False
     hidden: bool = False
     filled: bool = True
 
@@ -70,9 +73,9 @@ class StyleSheet:
         values |= _declarations(attributes.get("style", ""))
         style = inherited
         if values.get("display") == "none":
-            style = replace(style, hidden=True)
-        if values.get("visibility") in ("hidden", "collapse"):
-            style = replace(style, hidden=True)
+            style = replace(style, gone=True)
+        if values.get("visibility", "inherit") != "inherit":
+            style = replace(style, hidden=values["visibility"] in ("hidden", "collapse"))
         if values.get("fill", "inherit") != "inherit":
             style = replace(style, filled=values["fill"] not in ("none", "transparent"))
         return style

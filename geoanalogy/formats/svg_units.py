@@ -15,6 +15,8 @@ _LARGEST = 1e15
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _LENGTH = re.compile(rf"\s*({_NUMBER})\s*([a-zA-Z%]*)\s*")
 _TRANSFORM = re.compile(r"[\s,]*([a-zA-Z]+)\s*\(([^()]*)\)[\s,]*")
+_ALIGNMENT = re.compile(r"x(Min|Mid|Max)Y(Min|Mid|Max)")
+_SHARES = {"Min": 0.0, "Mid": 0.5, "Max": 1.0}
 _ARGUMENTS = {"matrix": (6,), "translate": (1, 2), "scale": (1, 2), "rotate": (1, 3), "skewX": (1,), "skewY": (1,)}
 
 _INCH = 0.0254
@@ -105,9 +107,14 @@ def length(text: str | None, reference: float, default: float = 0.0) -> float:
     match = _LENGTH.fullmatch(text)
     if match and match[2] == "%":
         return number(match[1]) / 100 * reference
-    if not match or match[2] not in _PIXELS:
+    if not match or _unit(match[2]) not in _PIXELS:
         raise ValueError(f"{text.strip()[:30]!r} is no length")
-    return number(match[1]) * _PIXELS[match[2]]
+    return number(match[1]) * _PIXELS[_unit(match[2])]
+
+
+def _unit(text: str) -> str:
+    """A unit as the tables have it: CSS writes it in letters of either case."""
+    return "Q" if text in "qQ" and text else text.lower()
 
 
 def matrix(text: str | None) -> Matrix:
@@ -208,7 +215,7 @@ def page(attributes: Mapping[str, str]) -> tuple[Matrix, Viewport]:
     metres = 1.0
     for name in ("width", "height"):
         text = attributes.get(name, "auto")
-        unit = match[2] if (match := _LENGTH.fullmatch(text)) else ""
+        unit = _unit(match[2]) if (match := _LENGTH.fullmatch(text)) else ""
         size = 0.0 if unit == "%" else length(text, 0.0)
         if size < 0:
             raise ValueError(f"the {name} {text!r} of the page is negative")
@@ -221,10 +228,7 @@ def page(attributes: Mapping[str, str]) -> tuple[Matrix, Viewport]:
         box = np.array([0.0, 0.0, *sizes])
     else:
         scales = [s / b for s, b in zip(sizes, box[2:], strict=True) if s] or [1.0]
-    scale = np.full(2, min(scales))
-    if attributes.get("preserveAspectRatio", "").strip() == "none" and len(scales) == 2:
-        scale = np.array(scales)
-    scale *= metres
+    scale = _aspect(attributes, np.resize(scales, 2))[0] * metres
     x, y, _, height = box
     result = np.array([[scale[0], 0.0, -scale[0] * x], [0.0, -scale[1], scale[1] * (y + height)], [0.0, 0.0, 1.0]])
     return result, Viewport(float(box[2]), float(box[3]))
@@ -261,9 +265,17 @@ def fit(attributes: Mapping[str, str], viewport: Viewport) -> tuple[Matrix, View
     if box is None:
         result[:2, 2] = place[:2]
         return result, Viewport(place[2], place[3])
-    scale = np.array(place[2:]) / box[2:]
-    if attributes.get("preserveAspectRatio", "").strip() != "none":
-        scale[:] = scale.min()
+    scale, share = _aspect(attributes, np.array(place[2:]) / box[2:])
     result[[0, 1], [0, 1]] = scale
-    result[:2, 2] = place[:2] + (place[2:] - scale * box[2:]) / 2 - scale * box[:2]
+    result[:2, 2] = place[:2] + share * (place[2:] - scale * box[2:]) - scale * box[:2]
     return result, Viewport(float(box[2]), float(box[3]))
+
+
+def _aspect(attributes: Mapping[str, str], scale: NDArray[np.float64]) -> tuple[NDArray[np.float64], Matrix]:
+    """The scale of a view box along x and y, and the shares of the room left over that lie before it."""
+    words = attributes.get("preserveAspectRatio", "").split()
+    if "none" in words:
+        return scale, np.zeros(2)
+    aligned = [match for word in words if (match := _ALIGNMENT.fullmatch(word))]
+    uniform = scale.max() if "slice" in words else scale.min()
+    return np.full(2, uniform), np.array([_SHARES[share] for share in aligned[0].groups()] if aligned else [0.5, 0.5])

@@ -83,9 +83,11 @@ def clean_ring(points: ArrayLike, name: str) -> tuple[NDArray[np.float64], NDArr
         )
     ring = ring[kept]
     area = signed_area(ring)
-    if abs(area) <= ZERO_LENGTH * extent * extent:
-        raise InputError(f"{name} has no area; give a ring that encloses one")
     outline = None if _is_convex_quadrangle(ring) else shapely.Polygon(ring - ring[0])
+    # The loops of a ring that crosses itself may cancel: only one that lies on a line encloses nothing.
+    nothing = ZERO_LENGTH * extent * extent
+    if abs(area) <= nothing and (outline is None or shapely.make_valid(outline).area <= nothing):
+        raise InputError(f"{name} has no area; give a ring that encloses one")
     if outline is not None and not outline.is_valid:
         where = shapely.is_valid_reason(outline).partition("[")
         x, y = (float(v) for v in where[2].rstrip("]").split()) if where[2] else (0.0, 0.0)

@@ -437,3 +437,15 @@ def _read_or_refuse(content):
 )
 def test_letters_written_by_their_numbers_are_read(written, read):
     assert only(polyline(SQUARE, layer=written)).label == read
+
+
+def test_names_of_blocks_and_layers_count_whatever_the_case_of_their_letters():
+    layers = tags((0, "LAYER"), (2, "Hidden"), (70, 1), (62, 7))
+    body = insert("CHAIR") + polyline(SQUARE, layer="HIDDEN")
+    (found,) = scene(body, blocks=block("Chair", polyline(SQUARE, layer="0")), layers=layers).polygons
+    assert places(found.points) == UNIT
+
+
+def test_an_ellipse_of_six_digits_is_closed():
+    body = entity("ELLIPSE", (10, 0), (20, 0), (11, 2), (21, 0), (40, 0.5), (41, 0.0), (42, 6.28319))
+    assert only(body).area == pytest.approx(2 * np.pi, rel=1e-2)

@@ -57,6 +57,18 @@ def test_nothing_but_a_geometry_is_needed():
     assert [(p.id, p.label) for p in scene.polygons] == [("polygon 0", "")]
 
 
+def test_what_is_null_or_empty_says_nothing():
+    unnamed = {**feature(id=None, kind_of=None, label="hall"), "id": "f7"}
+    scene = read(collection(unnamed, feature([]), feature([], "MultiPolygon")), label="kind_of")
+    assert [(p.id, p.label) for p in scene.polygons] == [("f7", "hall")]
+
+
+def test_a_bare_collection_of_geometries():
+    parts = [{"type": "Polygon", "coordinates": [SQUARE]}, {"type": "Point", "coordinates": [0, 0]}]
+    (polygon,) = read({"type": "GeometryCollection", "geometries": parts}).polygons
+    assert polygon.points.tolist() == UNIT_SQUARE.tolist()
+
+
 def test_id_of_the_feature_counts_where_the_properties_have_none():
     scene = read(collection({**feature(), "id": 17}, {**feature(id="b"), "id": 18}))
     assert [p.id for p in scene.polygons] == ["17", "b"]
@@ -258,7 +270,8 @@ def test_degrees_are_refused(crs):
         (feature([[[0, 0], [1, 0], [2, 0], [0, 0]]], id="r2"), "polygon 'r2' has no area"),
         (feature([[[0, 0], [0, 0]]]), "1 distinct vertex; a polygon needs at least three"),
         (feature([[]]), r"shape \(0, 2\)|0 distinct vertices"),
-        (feature([]), "its Polygon has no rings"),
+        ({"type": "Feature", "geometry": {"type": "Polygon", "coordinates": {}}}, "its Polygon has no rings"),
+        (feature(orientation=True), "its orientation is True; give an angle in radians"),
         (feature([None]), "ring 0 is no list of x, y pairs of numbers"),
         (feature([[[0, 0], ["1", 0], [1, 1], [0, 0]]]), "ring 0 is no list of x, y pairs of numbers"),
         (feature([[[0, 0], [True, 0], [1, 1], [0, 0]]]), "ring 0 is no list of x, y pairs of numbers"),

@@ -542,3 +542,43 @@ def _read_or_refuse(content):
             read()
         except InputError as error:
             assert str(error).startswith("plan.svg")
+
+
+def test_a_switch_shows_one_of_its_children():
+    other = '<rect width="5" height="5" systemLanguage="de"/>'
+    square = '<rect width="1" height="1"/>'
+    assert places(only(f"<switch><title>x</title>{other}{square}<rect width='3' height='3'/></switch>").points) == UNIT
+    assert only(f"<switch>{other}</switch>").area == pytest.approx(25)
+
+
+def test_what_is_in_something_hidden_may_be_visible_but_not_in_something_gone():
+    square = '<rect width="1" height="1" visibility="visible"/><rect width="2" height="2"/>'
+    assert places(only(f'<g visibility="hidden">{square}</g>').points) == UNIT
+    assert outlines(f'<g display="none">{square}</g>') == []
+
+
+@pytest.mark.parametrize(
+    ("aspect", "corners"),
+    [
+        ("none", (0, 0, 4, 2)),
+        ("xMinYMin", (0, 0, 2, 2)),
+        ("xMidYMid meet", (1, 0, 3, 2)),
+        ("xMaxYMax", (2, 0, 4, 2)),
+        ("defer xMinYMin slice", (0, 0, 4, 4)),
+        ("xMidYMax slice", (0, -2, 4, 2)),
+    ],
+)
+def test_a_nested_drawing_fits_its_place_as_it_says(aspect, corners):
+    square = '<rect width="1" height="1"/>'
+    nested = f'<svg width="4" height="2" viewBox="0 0 1 1" preserveAspectRatio="{aspect}">{square}</svg>'
+    x0, y0, x1, y1 = corners
+    assert places(only(nested).points) == {(x0, y0), (x1, y0), (x1, y1), (x0, y1)}
+
+
+def test_units_are_written_in_letters_of_either_case():
+    one, other = (only('<rect width="1" height="1"/>', f'width="10{unit}" viewBox="0 0 1 1"') for unit in ("mm", "MM"))
+    assert one.area == other.area == pytest.approx(1e-4)
+
+
+def test_names_that_programs_number_say_nothing():
+    assert only('<g id="layer 1-2"><rect width="1" height="1"/></g>').label == ""

@@ -135,6 +135,11 @@ def test_messages_name_the_polygon():
         Polygon(UNIT_SQUARE, id="r1", holes=[[(0, 0), (1, 0), (2, 0)]])
 
 
+def test_loops_that_cancel_out_cross_and_are_no_line():
+    with pytest.raises(InputError, match="crosses or touches itself near x 1, y 1"):
+        Polygon([(0, 0), (2, 2), (2, 0), (0, 2)])
+
+
 @pytest.mark.parametrize(
     "holes",
     [[rectangle(1, 1, (5, 5))], [rectangle(2, 2, (3, 3))], [COURTYARD, rectangle(1, 1, (1.5, 2))], [HOLED_ROOM]],

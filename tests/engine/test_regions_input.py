@@ -92,7 +92,7 @@ def test_a_million_points_are_resampled():
     ("options", "message"),
     [
         ({"contrast": -1.0}, "contrast is -1.0"),
-        ({"threshold": 1.5}, "threshold is 1.5: give a number from 0 to 1"),
+        ({"threshold": 1.5}, "threshold is 1.5; give a number from 0 to 1"),
         ({"query_points": 2}, "query_points is 2"),
         ({"reach": 0.0}, "reach is 0.0"),
         ({"largest_scale": 0.5}, "largest_scale is 0.5"),
@@ -100,7 +100,7 @@ def test_a_million_points_are_resampled():
         ({"neighbourhood": 0.0}, "neighbourhood is 0.0"),
         ({"joint_tolerance": 2.0}, "joint_tolerance is 2.0"),
         ({"most": 0}, "most is 0"),
-        ({"reach": float("nan")}, "reach is nan: give a number from 0.001 to 1"),
+        ({"reach": float("nan")}, "reach is nan; give a number from 0.001 to 1"),
         ({"query_kind": "circle"}, "query_kind is 'circle'"),
     ],
 )
