@@ -14,7 +14,7 @@ from ..relations.runs import run_starts
 from .batch import Batch
 from .candidates import Candidates
 from .importance import Importance
-from .rivals import Refined, Stands
+from .rivals import Refined, Rivals, Stands
 
 #: How deep inside an obstacle a part of the object may be, in half-widths of level sets: at a candidate, less than it
 #: is moved aside; and where it stands, no more than what touches may share.
@@ -26,6 +26,11 @@ TOUCHING = 0.02
 STRONGEST = 8
 AROUND = (0.0, 0.6, 1.2, 2.4)
 WAYS = 8
+
+#: Free poses that go on uphill: of each arrangement at the most so many for each of its senses and scales, within this
+#: share of the best. A room that is the same turned about has two places that are as good.
+KEPT = 2
+EQUALLY_GOOD = 0.98
 
 #: Steps uphill at first, in half-widths, and how many there are: steps are halved where nothing gains, so that poses
 #: come to rest well within a thousandth of a room's size.
@@ -55,7 +60,7 @@ def give_way(
     Returns
     -------
     Refined
-        At most one of each arrangement.
+        Of each arrangement the best, and what is nearly as good in other places.
     """
     turns = np.arange(WAYS) * (2 * np.pi / WAYS)
     rings = np.array([(far * np.cos(t), far * np.sin(t)) for far in AROUND for t in turns[: WAYS if far else 1]])
@@ -69,15 +74,16 @@ def give_way(
         angles.append(np.repeat(c.angle, len(rings)))
     which = np.repeat(np.arange(len(importances)), [len(a) for a in angles[1:]])
     poses = Refined(which, np.concatenate(positions), np.concatenate(angles), np.zeros(len(which)))
-    poses = poses.of(stands(importances, poses, TOUCHING))
+    free = stands(importances, poses, TOUCHING)
+    poses, beside = poses.of(free), np.flatnonzero(free) // len(rings)
     if not len(poses.angle):
         return poses
     batch = Batch(importances)
     poses = replace(poses, value=batch.importance(poses.which, poses.position, poses.angle))
-    room = batch.arrangement[poses.which]
-    order = np.lexsort((-poses.value * np.asarray(factor)[poses.which], room))
-    best = order[run_starts(room[order])]
-    return _uphill(batch, importances, poses.of(np.sort(best)), stands)
+    order = np.lexsort((-poses.value, beside))
+    poses = poses.of(order[run_starts(beside[order])])
+    rivals = Rivals(importances, batch, np.asarray(factor))
+    return _uphill(batch, importances, poses.of(rivals.leading(poses, KEPT, EQUALLY_GOOD)), stands)
 
 
 def _uphill(batch: Batch, importances: Sequence[Importance], poses: Refined, stands: Stands) -> Refined:
