@@ -2,6 +2,8 @@
 
 import ast
 import subprocess
+from collections.abc import Iterator
+from fnmatch import fnmatch
 from functools import cache
 from pathlib import Path
 
@@ -35,6 +37,20 @@ def syntax_tree(path: Path) -> ast.Module:
 
 
 def tracked_files() -> list[Path]:
-    """The files that git knows and that are there."""
-    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    """The files that git knows and that are there; where git or its folder is missing, all but what is made here."""
+    try:
+        listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    except (OSError, subprocess.CalledProcessError):
+        made = (ROOT / ".gitignore").read_text(encoding="utf-8").split()
+        return [path for path in _walked(ROOT, [pattern.strip("/") for pattern in made]) if path.is_file()]
     return [ROOT / name for name in listed.split("\0") if name and (ROOT / name).is_file()]
+
+
+def _walked(folder: Path, without: list[str]) -> Iterator[Path]:
+    """Everything in a folder but what matches one of these patterns."""
+    for path in sorted(folder.iterdir()):
+        if path.name == ".git" or any(fnmatch(path.name, pattern) for pattern in without):
+            continue
+        yield path
+        if path.is_dir():
+            yield from _walked(path, without)

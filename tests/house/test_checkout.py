@@ -1,6 +1,8 @@
 """The checkout: names that work everywhere, no trace of one machine, one version, a complete grid of wheels."""
 
+import os
 import re
+import subprocess
 import sys
 import tomllib
 from collections import Counter
@@ -31,6 +33,23 @@ def test_tests_are_no_package():
 def test_names_of_test_files_are_unique():
     counts = Counter(path.name for path in modules("tests") if path.name != "conftest.py")
     assert [name for name, count in counts.items() if count > 1] == []
+
+
+def test_without_git_the_same_files_are_checked(monkeypatch):
+    known = tracked_files()
+    monkeypatch.setenv("PATH", "")
+    assert set(known) <= set(tracked_files())
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a shell script")
+def test_the_python_that_is_chosen_may_stand_in_a_folder_with_a_space(tmp_path):
+    folder = tmp_path / "a folder"
+    folder.mkdir()
+    (folder / "python").write_text("#!/bin/sh\nexit 0\n")
+    (folder / "python").chmod(0o755)
+    chosen = {**os.environ, "PYTHON": str(folder / "python")}
+    found = subprocess.run([ROOT / "scripts" / "find_python"], env=chosen, capture_output=True, text=True)
+    assert found.stdout.strip() == str(folder / "python")
 
 
 def test_no_file_names_a_folder_of_one_machine():
