@@ -25,7 +25,9 @@ help:
 $(READY): pyproject.toml scripts/find_python scripts/list_requirements.py
 	@python=$$(scripts/find_python) && "$$python" -m venv .venv
 	$(PY) scripts/list_requirements.py dev bpy benchmarks > .venv/requirements.txt
-	$(PY) -m pip install --quiet --requirement .venv/requirements.txt
+	@$(PY) -m pip install --quiet --requirement .venv/requirements.txt || { \
+	    echo "GeoAnalogy needs packages that pip could not install, see above: is there a network, or an index that pip may use?" >&2; \
+	    exit 1; }
 	@touch $(READY)
 
 demo: $(READY)

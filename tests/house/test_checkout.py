@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -50,6 +51,17 @@ def test_the_python_that_is_chosen_may_stand_in_a_folder_with_a_space(tmp_path):
     chosen = {**os.environ, "PYTHON": str(folder / "python")}
     found = subprocess.run([ROOT / "scripts" / "find_python"], env=chosen, capture_output=True, text=True)
     assert found.stdout.strip() == str(folder / "python")
+
+
+def test_without_a_network_one_sentence_says_what_is_missing(tmp_path):
+    for name in ("Makefile", "pyproject.toml", "scripts/find_python", "scripts/list_requirements.py"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        shutil.copy(ROOT / name, tmp_path / name)
+    offline = {**os.environ, "PYTHON": sys.executable, "PIP_NO_INDEX": "1", "PIP_CONFIG_FILE": os.devnull}
+    made = subprocess.run(["make", ".venv/ready"], cwd=tmp_path, env=offline, capture_output=True, text=True)
+    assert made.returncode == 2
+    assert "pip could not install, see above: is there a network" in made.stderr
+    assert not (tmp_path / ".venv" / "ready").exists()
 
 
 def test_no_file_names_a_folder_of_one_machine():
