@@ -8,11 +8,13 @@ run, so that the others need no Blender.
 
 import argparse
 import enum
+import glob
 import math
 import os
 import signal
 import sys
 import threading
+import time
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -46,17 +48,22 @@ REMEDIES = {
 }
 
 
+#: Seconds in which a signal has to be noticed. Python looks at signals between two of its own steps, and Blender draws
+#: a picture, or saves a large file, in one.
+PATIENCE = 3.0
+
+
 class ProgressLines:
     """Progress as lines on the error stream, and the place where a cancellation is asked for.
 
     Attributes
     ----------
-    cancelled : bool
-        Set by a signal; the next report stops the work between two of its steps.
+    noticed : int
+        Number of signals; after one, the next report stops the work between two of its steps.
     """
 
     def __init__(self, quiet: bool = False) -> None:
-        self.cancelled = False
+        self.noticed = 0
         self._quiet = quiet
         self._last = ""
 
@@ -66,30 +73,62 @@ class ProgressLines:
         if not self._quiet and line != self._last:
             print(line, file=sys.stderr, flush=True)
             self._last = line
-        return not self.cancelled
+        return not self.noticed
+
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
 @contextmanager
-def _signals_cancel(progress: ProgressLines) -> Iterator[None]:
-    """Let Ctrl-C and the farm's SIGTERM ask for a cancellation; a second one insists.
+def _signals_cancel(progress: ProgressLines, unfinished: Sequence[Path]) -> Iterator[None]:
+    """Let Ctrl-C and the farm's SIGTERM ask for a cancellation; a second one insists, and one that goes unnoticed too.
 
     Blender replaces Python's own handler by one of its own in background mode, which no Python code sees.
+
+    Parameters
+    ----------
+    progress : ProgressLines
+    unfinished : sequence of Path
+        The files that are written.
     """
 
     def ask(number: int, frame: object) -> None:
-        if progress.cancelled:
+        progress.noticed += 1
+        if progress.noticed > 1:
             raise KeyboardInterrupt
-        progress.cancelled = True
+
+    def watch(received: int) -> None:
+        count = 0
+        while number := os.read(received, 1):
+            count += number[0] in SIGNALS
+            time.sleep(PATIENCE)
+            if progress.noticed < count:
+                _remove_parts(unfinished)
+                os._exit(_failed(ExitCode.CANCELLED, "cancelled; what was not finished is not written"))
+        os.close(received)
 
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = {number: signal.signal(number, ask) for number in (signal.SIGINT, signal.SIGTERM)}
+    received, sent = os.pipe()
+    os.set_blocking(sent, False)
+    threading.Thread(target=watch, args=(received,), daemon=True).start()
+    before = {number: signal.signal(number, ask) for number in SIGNALS}
+    watched = signal.set_wakeup_fd(sent, warn_on_full_buffer=False)
     try:
         yield
     finally:
+        signal.set_wakeup_fd(watched)
         for number, handler in before.items():
             signal.signal(number, handler if handler is not None else signal.SIG_DFL)
+        os.close(sent)
+
+
+def _remove_parts(paths: Sequence[Path]) -> None:
+    """Remove what this process had begun to write beside files that take their places when they are whole."""
+    for path in paths:
+        for part in path.parent.glob(f"{glob.escape(path.stem)}.{os.getpid()}.part*"):
+            part.unlink(missing_ok=True)
 
 
 def _path_with_suffix(*suffixes: str) -> Callable[[str], Path]:
@@ -227,7 +266,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     run: Callable[[Any, ProgressLines], str] = parsed.run
     progress = ProgressLines(parsed.quiet)
     try:
-        with _signals_cancel(progress):
+        with _signals_cancel(progress, [value for value in vars(parsed).values() if isinstance(value, Path)]):
             print(run(parsed, progress), flush=True)
         return ExitCode.DONE
     except argparse.ArgumentTypeError as error:

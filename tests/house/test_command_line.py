@@ -179,6 +179,33 @@ def test_a_second_signal_insists(replay):
     assert main(["replay", "in.blend", "--output", "out.blend"]) == ExitCode.CANCELLED
 
 
+STUCK = """
+import hashlib, sys, types
+from pathlib import Path
+def replay_file(source, **options):
+    Path(f"out.{__import__('os').getpid()}.part.blend").write_bytes(b"begun")
+    print("drawing", flush=True)
+    hashlib.pbkdf2_hmac("sha256", b"", b"", 10**9)
+sys.modules["geoanalogy.blender.tree.replay"] = types.SimpleNamespace(replay_file=replay_file)
+from geoanalogy import command_line
+command_line.PATIENCE = 0.2
+sys.exit(command_line.main(["replay", "in.blend", "--output", "out.blend"]))
+"""
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_that_one_long_step_keeps_from_being_noticed_ends_it(tmp_path, number):
+    program = [sys.executable, "-c", STUCK]
+    paths = {**os.environ, "PYTHONPATH": str(ROOT)}
+    with subprocess.Popen(program, cwd=tmp_path, env=paths, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout.readline() == b"drawing\n"
+        process.send_signal(number)
+        _, told = process.communicate(timeout=60)
+    assert process.returncode == ExitCode.CANCELLED
+    assert b"cancelled; what was not finished is not written" in told
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_progress_repeats_no_line_and_stays_within_the_scale(capsys):
     progress = ProgressLines()
     for fraction in (-0.1, 0.0, 0.001, 0.5, 1.2):
