@@ -51,7 +51,8 @@ class Validation:
         self._options = options
         #: The last slack and what it blocks: the same in all senses.
         self._blocked: WeakKeyDictionary[Fields, tuple[float, NDArray[np.bool_]]] = WeakKeyDictionary()
-        self._trees: WeakKeyDictionary[Arrangement, shapely.STRtree] = WeakKeyDictionary()
+        #: The obstacles of arrangements, by the margin taken off them; and what is left of the object, by its margin.
+        self._trees: WeakKeyDictionary[Arrangement, dict[float, shapely.STRtree]] = WeakKeyDictionary()
         self._cores: dict[float, tuple[Array, float]] = {}
 
     @cached_property
@@ -204,11 +205,7 @@ class Validation:
                 room = target.parent.shape.buffer(off, join_style="mitre") if off else target.parent.shape
                 shapely.prepare(room)
                 hopeless[start:end] = ~shapely.covers(room, there)
-            pose, hit = self._tree(target).query(there, predicate="intersects")
-            if off:
-                deep = shapely.buffer(self._tree(target).geometries, -off, join_style="mitre")
-                pose = pose[shapely.intersects(deep[hit], there[pose])]
-            hopeless[start + pose] = True
+            hopeless[start + self._tree(target, off).query(there, predicate="intersects")[0]] = True
         return hopeless
 
     def _core(self, slack: float) -> tuple[Array, float]:
@@ -240,11 +237,13 @@ class Validation:
         known = self._cores[slack] = core, slack - margin
         return known
 
-    def _tree(self, target: Arrangement) -> shapely.STRtree:
-        """The obstacles of an arrangement."""
-        tree = self._trees.get(target)
+    def _tree(self, target: Arrangement, off: float = 0.0) -> shapely.STRtree:
+        """The obstacles of an arrangement, without a margin all around."""
+        trees = self._trees.setdefault(target, {})
+        tree = trees.get(off)
         if tree is None:
-            tree = self._trees[target] = shapely.STRtree([self._obstacle(m) for _, m in self.obstacles(target)])
+            shapes = np.array([self._obstacle(m) for _, m in self.obstacles(target)], dtype=object)
+            tree = trees[off] = shapely.STRtree(shapely.buffer(shapes, -off, join_style="mitre") if off else shapes)
         return tree
 
 
