@@ -174,3 +174,15 @@ def test_without_a_result_it_says_so():
     propagate(most=1)
     with pytest.raises(RuntimeError, match="no result is selected"):
         step()
+
+
+def test_results_of_one_room_that_are_taken_on_together_stay_apart():
+    bare_rooms()
+    bed()
+    propagate(most=2)
+    both = [i for i in results() if i.location.x > 10]
+    keys = [i["ga_key"] for i in both]
+    activate(*both)
+    assert evaluated_after(step) == 0
+    one, other = (place_of(key) for key in keys)
+    assert math.dist(one[:2], other[:2]) >= 1.0

@@ -149,18 +149,25 @@ def take_on(context: bpy.types.Context, items: Iterable[bpy.types.Object], step:
         proposed = proposed_by(node)
         by_key = {e.key: e for e in proposed}
         decisions = operation.decisions.following(list(by_key))
+        engine = replace(engine, operation=replace(operation, decisions=decisions))
+        # What is taken on stands elsewhere for those after it.
+        placed = (e for site in sites for e in decided(engine, proposed, site.layout).elements)
+        standing = {e.key: e for e in placed if e.node == node.name}
         for key in _keys(group):
             own = by_key.get(key)
             at = None if own is None else site_under(sites, own)
             if at is None:
                 left += 1
                 continue
-            operation = replace(operation, decisions=decisions)
-            standing = decided(replace(engine, operation=operation), proposed, at.layout).elements
-            places = other_places(own, proposed, standing, decisions.rejected, operation.spacing)
-            further = taken_on(decisions, own, places, at.scene.polygon(own.parent), step)
-            decisions = further or decisions
-            taken, left = taken + (further is not None), left + (further is None)
+            parent = at.scene.polygon(own.parent)
+            places = other_places(own, proposed, list(standing.values()), decisions.rejected, operation.spacing)
+            further = taken_on(decisions, own, places, parent, step)
+            if further is None:
+                left += 1
+                continue
+            decisions, taken = further, taken + 1
+            pin = decisions.pinned.get(key)
+            standing[key] = own if pin is None else replace(own, pose=pin.pose(parent), scale=pin.scale)
         changed.append((node, engine, decisions))
     for node, engine, decisions in changed:
         _write_decisions(context, node, engine, decisions)
