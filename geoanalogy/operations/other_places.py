@@ -42,20 +42,17 @@ def other_places(
     Returns
     -------
     list of Element
-        Best first, the result's own place among them.
+        Best first; the result's own place among them, unless another one has been taken there.
     """
     others = [e for e in standing if _shares_polygon(e, own) and e.key != own.key]
     unwanted = set(find(rejected, [e.key for e in proposed]).values())
     return [
         e
         for e in proposed
-        if e.key == own.key
-        or (
-            _shares_polygon(e, own)
-            and not e.example
-            and e.key not in unwanted
-            and not any(too_near(e, other, spacing) for other in others)
-        )
+        if _shares_polygon(e, own)
+        and not e.example
+        and e.key not in unwanted
+        and not any(too_near(e, other, spacing) for other in others)
     ]
 
 
@@ -83,13 +80,12 @@ def taken_on(
         None: there is no other place. What stands at none of them, moved by hand, comes to the first one.
     """
     pins = [Pin.of(e.pose, parent, e.scale) for e in places]
-    home = next(i for i, e in enumerate(places) if e.key == own.key)
-    if len(pins) < 2:
+    stands = decisions.pinned.get(own.key) or Pin.of(own.pose, parent, own.scale)
+    here = next((i for i, pin in enumerate(pins) if _is_same(pin, stands)), None)
+    if not pins or (len(pins) == 1 and here == 0):
         return None
-    pinned = decisions.pinned.get(own.key, pins[home])
-    here = next((i for i, pin in enumerate(pins) if _is_same(pin, pinned)), None)
     to = ((step - (step > 0)) if here is None else here + step) % len(pins)
-    if to != home:
+    if places[to].key != own.key:
         return decisions.pin(own.key, pins[to])
     back = decisions.forget(own.key)
     return back.accept(own.key) if own.key in decisions.accepted else back

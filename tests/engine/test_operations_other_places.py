@@ -40,6 +40,15 @@ def test_what_another_one_stands_in_or_too_near_is_no_place():
     assert other_places(PLACES[0], PLACES, apart, [], 1.7) == PLACES
 
 
+def test_a_result_does_not_come_home_to_where_another_has_been_taken():
+    away = taken_on(Decisions(), PLACES[0], PLACES, ROOM, 1)
+    standing = [dataclasses.replace(PLACES[0], pose=PLACES[1].pose), chair(1.2, key="r@taken")]
+    places = other_places(PLACES[0], PLACES, standing, [], None)
+    assert places == PLACES[1:]
+    back = taken_on(away, PLACES[0], places, ROOM, -1)
+    assert back.pinned[PLACES[0].key] == Pin.of(PLACES[3].pose, ROOM)
+
+
 def test_rejected_places_are_left_out_by_what_they_mean():
     assert other_places(PLACES[0], PLACES, [], ["r@3002,1", "q@5000,0"], None) == [PLACES[0], PLACES[2], PLACES[3]]
 
